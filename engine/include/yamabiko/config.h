@@ -1,0 +1,42 @@
+/* Yamabiko's compile-time limits. Every build of one program must use the same values: they size
+ * the structs of yamabiko.h. Override with -DYB_MAX_…=n on the compiler's command line.
+ */
+#ifndef YAMABIKO_CONFIG_H
+#define YAMABIKO_CONFIG_H
+
+/* Most vertices of a mesh. 255 keeps indices in 8 bits: a map then takes 12 bytes a vertex and
+ * 6 a vertex for triangles. A code of format version 1 never asks for more than 255.
+ */
+#ifndef YB_MAX_VERTICES
+#define YB_MAX_VERTICES 255
+#endif
+#if YB_MAX_VERTICES < 4 || YB_MAX_VERTICES > 255
+#error "YB_MAX_VERTICES: 4 to 255"
+#endif
+
+/* Longest side of a screen, in pixels. Up to 512 the edge functions of the rasteriser fit 32 bits;
+ * above they take 64, with the same pixels.
+ */
+#ifndef YB_MAX_SIDE
+#if defined(__SIZEOF_POINTER__) && __SIZEOF_POINTER__ >= 8
+#define YB_MAX_SIDE 4096
+#else
+#define YB_MAX_SIDE 512
+#endif
+#endif
+#if YB_MAX_SIDE < 16 || YB_MAX_SIDE > 4096
+#error "YB_MAX_SIDE: 16 to 4096"
+#endif
+
+/* Levels of the explicit stack that refines one base triangle. A triangle that would need more is
+ * drawn as it is, and counted in yb_stats_t.depth_limited: it did not occur in 100,000 random views
+ * of the gallery with 16. Each level takes about 110 bytes of yb_frame_t.
+ */
+#ifndef YB_MAX_LEVELS
+#define YB_MAX_LEVELS 16
+#endif
+#if YB_MAX_LEVELS < 4 || YB_MAX_LEVELS > 32
+#error "YB_MAX_LEVELS: 4 to 32"
+#endif
+
+#endif

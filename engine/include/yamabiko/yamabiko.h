@@ -1,0 +1,352 @@
+/* Yamabiko: a whole mountain coded in about a hundred bytes, rebuilt and drawn in 3-D.
+ *
+ *     code ──► contours ──► mesh ──► (refined on the fly) ──► pixels, band by band
+ *
+ * What it is. A *code* is one map: the feature points of its contour lines, their heights and one
+ * fractal dimension (docs/SPEC.md). The engine decodes it as its bytes arrive, triangulates the
+ * contours, and draws the surface from any eye: every edge that looks long on the screen is split
+ * at its midpoint, which a smooth bulge and a place-keyed noise lift or lower.
+ *
+ * Coordinates. x east, y north, z up, right-handed. Plan positions are 8.8 fixed point in steps of
+ * the map's lattice (1 step = cell_m metres), heights are signed, in 1/256 step, above the code's
+ * base. A name ending in _q8 has 8 fractional bits, _q12 has 12; _bam is an angle of which 65536
+ * make a full turn.
+ *
+ * Memory. The engine allocates nothing, keeps no globals, never recurses and uses no floating
+ * point. The caller places three structs:
+ *   yb_map_t    the mesh: as long as the map is used              (~5 KB with 255 vertices)
+ *   yb_load_t   working memory of decoding: until YB_OK           (~4 KB)
+ *   yb_frame_t  working memory of drawing: one frame at a time    (~7 KB)
+ * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
+ *
+ * Threads. Calls on different structs are independent; a loaded map is only read by the frames.
+ *
+ * Trust. Code bytes may be hostile: any byte string ends in YB_OK or an error, in bounded time
+ * (about n² steps for n vertices) and in the memory above. Struct contents are trusted.
+ *
+ * Example (tests/unit/test_example.c compiles it):
+ *
+ *     static yb_map_t map;
+ *     static union { yb_load_t load; yb_frame_t frame; } work;
+ *     static uint16_t depth[128 * 8];
+ *     static uint8_t pixels[64 * 8];
+ *
+ *     if (yb_map_load(&map, &work.load, code, code_bytes) != YB_OK)
+ *         return;
+ *     yb_view_t view;
+ *     yb_screen_t screen = {.width = 128, .height = 64, .format = YB_GREY4};
+ *     yb_view_init(&view, &map);
+ *     yb_view_orbit(&view, &map, YB_DEGREES(45), YB_DEGREES(30), 307);
+ *     yb_frame_begin(&work.frame, &map, &view, &screen);
+ *     yb_band_t band = {.rows = 8, .depth = depth, .pixels = pixels, .pitch = 64};
+ *     for (band.y = 0; band.y < 64; band.y = (uint16_t)(band.y + 8)) {
+ *         yb_frame_band(&work.frame, &band);
+ *         send_to_panel(band.y, pixels);
+ *     }
+ */
+#ifndef YAMABIKO_YAMABIKO_H
+#define YAMABIKO_YAMABIKO_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "yamabiko/config.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- Versions --------------------------------------------------------------------------------- */
+
+#define YB_VERSION_MAJOR 0
+#define YB_VERSION_MINOR 1
+#define YB_VERSION_PATCH 0
+/* The one version of the format (bytes and reconstruction) that this engine reads. */
+#define YB_FORMAT_VERSION 1
+
+/* --- Limits ----------------------------------------------------------------------------------- */
+
+#define YB_MAX_TRIANGLES (2 * YB_MAX_VERTICES)
+/* Contours of a code, summits among them. */
+#define YB_MAX_CONTOURS 255
+/* Longest legal code of the paper profile, in bytes: 255 summits. */
+#define YB_MAX_CODE_BYTES 1299
+/* |height| of a decoded vertex: 512 steps, twice the width of the map. */
+#define YB_MAX_HEIGHT_Q8 131072
+/* |slope| of a vertex: 4, about 76 degrees. */
+#define YB_MAX_SLOPE_Q11 8192
+
+/* --- Status ----------------------------------------------------------------------------------- */
+
+typedef enum {
+    YB_OK = 0,             /* done */
+    YB_MORE = 1,           /* the code goes on: feed the next bytes */
+    YB_ERR_TRUNCATED = -1, /* the code ends before its last byte */
+    YB_ERR_CORRUPT = -2,   /* the check fails, or the contours cross, touch or repeat a point */
+    YB_ERR_VERSION = -3,   /* another format version or profile than this engine reads */
+    YB_ERR_LIMIT = -4      /* a valid code for a bigger build: more than YB_MAX_VERTICES */
+} yb_status_t;
+
+#if defined(__GNUC__)
+#define YB_MUST_CHECK __attribute__((warn_unused_result))
+#else
+#define YB_MUST_CHECK
+#endif
+
+/* A short English word for a status, for logs. Never NULL. */
+const char *yb_status_text(yb_status_t status);
+
+/* --- The map ---------------------------------------------------------------------------------- */
+
+typedef uint8_t yb_index_t; /* a vertex; YB_MAX_VERTICES bounds it */
+
+typedef struct {
+    uint16_t x_q8, y_q8; /* plan position: a multiple of 64, a quarter step */
+    int32_t z_q8;        /* height above the base */
+    int16_t gx_q11;      /* slope of the smooth surface towards the east, ±YB_MAX_SLOPE_Q11 */
+    int16_t gy_q11;      /* and towards the north */
+} yb_vertex_t;
+
+/* A length class: edges whose plan lengths differ by less than a quarter octave share one. */
+#define YB_LENGTH_CLASSES 64
+
+/* A map after YB_OK. Read it freely; only the yb_map_ calls write it.
+ * Vertices: first the contours' points in code order, then those corners that no contour has.
+ * Triangles: counter-clockwise seen from above; they tile the frame without gap or overlap.
+ */
+typedef struct {
+    yb_vertex_t vertex[YB_MAX_VERTICES];
+    yb_index_t triangle[YB_MAX_TRIANGLES][3];
+    uint16_t vertex_count;
+    uint16_t triangle_count;
+    uint16_t east_q8;  /* x of the frame's eastern side; the western one is 0 */
+    uint16_t north_q8; /* y of the frame's northern side */
+    int32_t low_q8;    /* height of the lowest vertex */
+    int32_t high_q8;   /* height of the highest vertex */
+    uint16_t cell;     /* metres per step, as coded: see yb_unit_ratio */
+    uint16_t unit;     /* metres per unit of coded height, as coded */
+    int16_t base_m;    /* metres above the datum of z = 0 */
+    uint8_t seed;
+    uint8_t hurst_q8m1; /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
+    bool smooth;        /* midpoints follow the slopes of the ends */
+    bool detail;        /* midpoints move by noise; clear it to get the smooth part alone */
+    /* Per length class: the noise's scale (q8 height for one unit of the hash sum is scale/2^9),
+     * and the farthest that refinement may move a point of an edge of the class, or shorter. */
+    uint16_t noise[YB_LENGTH_CLASSES];
+    uint16_t reach_q8[YB_LENGTH_CLASSES];
+} yb_map_t;
+
+/* One contour of a code, as decoded. */
+typedef struct {
+    uint8_t first;  /* index of its first vertex */
+    uint8_t count;  /* points: 1 is a summit (or any spot height) */
+    uint8_t above;  /* region on its left side, in the direction of its points */
+    uint8_t below;  /* region on its right side; equal to above for a spot height */
+    bool open;      /* its ends lie on the frame */
+} yb_contour_t;
+
+/* Working memory of decoding. contour[0 .. contour_count) and region_count stay valid after YB_OK
+ * for those who want to know how the map is built; all else is private.
+ */
+typedef struct {
+    yb_contour_t contour[YB_MAX_CONTOURS];
+    uint16_t contour_count;
+    uint16_t region_count;
+    /* private: the decoder */
+    uint8_t state;
+    uint8_t crc;
+    uint8_t bits_held;
+    uint8_t flags;
+    uint8_t contour_now, point_now;
+    uint8_t vertices_promised;
+    uint16_t points_promised;
+    uint16_t at;
+    uint32_t bits;
+    yb_status_t result;
+    uint16_t frame_height[4];
+    uint8_t header[16];
+    /* private: the triangulation, per triangle */
+    uint16_t neighbour[YB_MAX_TRIANGLES][3];
+    uint8_t region[YB_MAX_TRIANGLES];
+} yb_load_t;
+
+/* Starts a code. Both structs may hold anything before; map is undefined until YB_OK. */
+void yb_map_begin(yb_map_t *map, yb_load_t *load);
+
+/* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
+ * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
+ * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
+ * Cost: a hundred-byte code takes about 0.5 M instructions on a Cortex-M3, nearly all in the call
+ * that feeds the last byte; the worst legal code 30 M.
+ */
+YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
+                                      size_t count);
+
+/* Says that no byte will follow: YB_OK if the code was complete, else what was wrong with it,
+ * YB_ERR_TRUNCATED if nothing else was.
+ */
+YB_MUST_CHECK yb_status_t yb_map_end(yb_map_t *map, yb_load_t *load);
+
+/* All three at once, for a code that lies in one piece. */
+YB_MUST_CHECK yb_status_t yb_map_load(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
+                                      size_t count);
+
+/* Height of the reference surface (all edges longer than a step split) at a place of the frame;
+ * places outside are moved to its nearest side. No division but one; about 10,000 instructions.
+ */
+int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8);
+
+/* The reference surface's longest edge: one step. */
+#define YB_REFERENCE_Q8 256
+
+/* Called once per triangle of a refined surface; corners counter-clockwise, valid for the call. */
+typedef void (*yb_triangle_fn)(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
+                               const yb_vertex_t *c);
+
+/* Refines one base triangle until no edge is longer than longest_q8 in plan and hands out what it
+ * became. All triangles of a map, refined to one length, fit together without cracks.
+ * YB_REFERENCE_Q8 gives the reference surface, 65535 the base triangle itself.
+ */
+void yb_map_refine(const yb_map_t *map, uint16_t triangle, uint16_t longest_q8, yb_triangle_fn fn,
+                   void *context);
+
+/* A coded unit (12 bits of mantissa, 4 of exponent) in 1/64 m: mantissa << exponent. */
+static inline uint32_t yb_unit_64th_m(uint16_t coded)
+{
+    return (uint32_t)(coded & 0xfff) << (coded >> 12);
+}
+
+/* --- The view --------------------------------------------------------------------------------- */
+
+/* Whole degrees, 0 to 359, as a binary angle. */
+#define YB_DEGREES(d) ((uint16_t)(((uint32_t)(d) * 65536u + 180u) / 360u))
+
+/* A water level below every map. */
+#define YB_NO_WATER INT32_MIN
+
+/* How a map is looked at. Lengths are in 1/256 step, heights above the base *after* exaggeration
+ * for eye and look, before it for water. Any values give a correct frame; positions are clamped to
+ * ±4096 steps.
+ */
+typedef struct {
+    int32_t eye_q8[3];
+    int32_t look_q8[3];
+    uint16_t azimuth_bam;    /* of the picture's upward direction when looking straight down */
+    uint16_t zoom_q12;       /* focal length in frame widths: 4392 is 50 degrees across */
+    uint16_t exaggerate_q8;  /* vertical scale: 256 is true */
+    uint16_t edge_q4;        /* split edges longer than this on the screen, in 1/16 pixel */
+    int16_t sun_q14[3];      /* unit vector towards the sun */
+    bool walls;              /* draw the block's sides, down to its base */
+    int32_t water_q8;        /* water level, or YB_NO_WATER */
+    uint32_t max_leaves;     /* at most so many triangles refined in a frame; 0: no bound */
+} yb_view_t;
+
+/* The standard: 50 degrees across, true scale, edges up to 4 pixels, sun in the north-west 45
+ * degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south of the map.
+ */
+void yb_view_init(yb_view_t *view, const yb_map_t *map);
+
+/* Puts the eye on a sphere round the middle of the map's bounding box (exaggerated by the view's
+ * scale). azimuth: clockwise from north, where the camera looks; elevation: of the eye above the
+ * horizon, up to YB_DEGREES(90); distance in map widths, 8 fractional bits.
+ */
+void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
+                   uint16_t elevation_bam, uint16_t distance_q8);
+
+/* Light from an azimuth (clockwise from north) and an elevation above the horizon. */
+void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
+
+/* Sine and cosine of a binary angle, 14 fractional bits, within 1/8192 of the truth. */
+int16_t yb_sin_q14(uint16_t angle_bam);
+int16_t yb_cos_q14(uint16_t angle_bam);
+
+/* --- The frame -------------------------------------------------------------------------------- */
+
+typedef enum {
+    YB_GREY4,  /* 16 greys, two pixels a byte, the left one in the high nibble */
+    YB_RGB565  /* 16 bits, high byte first, as most panels take them */
+} yb_format_t;
+
+typedef struct {
+    uint16_t width, height; /* pixels; width even for YB_GREY4; at most YB_MAX_SIDE */
+    yb_format_t format;
+} yb_screen_t;
+
+/* Bytes of one row of pixels. */
+static inline size_t yb_screen_pitch(const yb_screen_t *screen)
+{
+    return screen->format == YB_GREY4 ? (size_t)screen->width / 2 : (size_t)screen->width * 2;
+}
+
+/* Some rows of the screen, and where to draw them. */
+typedef struct {
+    uint16_t y, rows; /* first row and how many; rows below the screen are left alone */
+    uint16_t *depth;  /* width * rows values of working memory */
+    uint8_t *pixels;  /* rows * pitch bytes */
+    size_t pitch;     /* bytes from one row of pixels to the next */
+} yb_band_t;
+
+/* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
+typedef struct {
+    uint32_t refined;       /* triangles at the end of refinement */
+    uint32_t drawn;         /* of those, front-facing and on the screen */
+    uint32_t depth_limited; /* left unsplit for want of YB_MAX_LEVELS */
+} yb_stats_t;
+
+/* A point of the surface, seen. Private to the renderer. */
+typedef struct {
+    yb_vertex_t at;
+    int32_t right_q8, up_q8, depth_q8; /* view space; depth counts from the eye */
+    int32_t x_q4, y_q4;                /* on the screen, 1/16 pixel; if visible */
+    uint16_t near;                     /* 1/depth, 65535 at the near distance */
+    bool visible;                      /* false: needs clipping before it can be projected */
+} yb_point_t;
+
+/* A level of refinement. Private. */
+typedef struct {
+    const yb_point_t *corner[3];
+    yb_point_t middle[3];
+    uint8_t pattern; /* which edges are split */
+    uint8_t child;   /* next child to visit */
+    uint8_t inside;  /* bounds that no longer need a test */
+} yb_level_t;
+
+/* Working memory of a frame. Only stats is for the caller to read. */
+typedef struct {
+    yb_stats_t stats;
+    const yb_map_t *map;
+    yb_view_t view;
+    yb_screen_t screen;
+    int32_t turn_q14[3][3];  /* view space from steps, exaggeration included in the last column */
+    int32_t shift_q8[3];     /* and its constant part */
+    int32_t near_q8;         /* nothing nearer is drawn */
+    int32_t base_q8;         /* where the walls end */
+    uint16_t focal_q4;       /* pixels */
+    uint16_t split_q8;       /* an edge is split if its plan length * split_q8 > depth * 256 … */
+    int32_t tone_q16;        /* hue steps per height unit */
+    uint8_t first_row[YB_MAX_TRIANGLES]; /* in units of 1 << YB_ROW_SHIFT rows */
+    uint8_t last_row[YB_MAX_TRIANGLES];
+    struct {
+        int32_t right_q8, up_q8, depth_q8;
+    } seen[YB_MAX_VERTICES];
+    yb_point_t root[3];
+    yb_level_t level[YB_MAX_LEVELS];
+} yb_frame_t;
+
+/* Prepares a frame: turns every vertex into the view once and finds the rows of each triangle.
+ * map must stay as it is until the last band is drawn. Never fails.
+ */
+void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,
+                    const yb_screen_t *screen);
+
+/* Draws some rows, background included. Bands may come in any order and height, again and again:
+ * a row's pixels are always the same. Never fails.
+ */
+void yb_frame_band(yb_frame_t *frame, const yb_band_t *band);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
