@@ -151,7 +151,8 @@ int main(int argc, char **argv)
         return 2;
     }
     for (int line = 0; line < LINES; line++)
-        wire.number[line] = (unsigned)(atoi(argv[2]) + atoi(argv[3 + line]));
+        wire.number[line] =
+            (unsigned)(strtoul(argv[2], NULL, 10) + strtoul(argv[3 + line], NULL, 10));
     yb_ssd0323_model_reset(&wire.model);
     if (!yb_gpio_trace_read(argv[1], line_set, &wire)) {
         fprintf(stderr, "after %lu bytes: %s\n", wire.bytes,

@@ -1,11 +1,10 @@
-/* draw_frame CHIP SCK MOSI CS DC RESET FRAME
+/* draw_frame CHIP PINS FRAME
  *
- * Draws one frame of noise on an SSD0323 on these GPIO lines, in bands and then one window again,
- * and leaves the frame in the file FRAME. */
+ * Draws one frame of noise on an SSD0323 on GPIO lines (PINS as gpiod_bus.h has them), in bands and
+ * then one window again, and leaves the frame in the file FRAME. */
 #include "gpiod_bus.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 enum {
     WIDTH = 128,
@@ -36,10 +35,9 @@ static bool draw(const yb_panel_t *panel, const yb_panel_bus_t *bus, uint8_t *fr
 
     if (!panel->init(bus))
         return false;
-    for (uint16_t y = 0; y < HEIGHT; y = (uint16_t)(y + BAND_ROWS)) {
-        const uint16_t left = (uint16_t)(HEIGHT - y);
-        if (!yb_panel_write_rows(panel, bus, y, left < BAND_ROWS ? left : BAND_ROWS,
-                                 frame + y * ROW_BYTES))
+    for (unsigned y = 0; y < HEIGHT; y += BAND_ROWS) {
+        const unsigned rows = HEIGHT - y < BAND_ROWS ? HEIGHT - y : BAND_ROWS;
+        if (!yb_panel_write_rows(panel, bus, (uint16_t)y, (uint16_t)rows, frame + y * ROW_BYTES))
             return false;
     }
     for (int row = 11; row < 28; row++) {
@@ -55,21 +53,18 @@ int main(int argc, char **argv)
     char error[YB_GPIOD_ERROR_BYTES];
     uint32_t noise = 20;
 
-    if (argc != 8) {
-        fputs("draw_frame CHIP SCK MOSI CS DC RESET FRAME\n", stderr);
+    if (argc != 4) {
+        fputs("draw_frame CHIP PINS FRAME\n", stderr);
         return 2;
     }
     for (size_t i = 0; i < sizeof frame; i++) {
         noise = noise * 1664525U + 1013904223U;
         frame[i] = (uint8_t)(noise >> 24);
     }
-    const yb_gpiod_pins_t pins = {.chip = argv[1],
-                                  .sck = atoi(argv[2]),
-                                  .mosi = atoi(argv[3]),
-                                  .cs = atoi(argv[4]),
-                                  .dc = atoi(argv[5]),
-                                  .reset = atoi(argv[6])};
-    yb_gpiod_bus_t *bus = yb_gpiod_bus_open(&pins, error, sizeof error);
+    yb_gpiod_pins_t pins = {.chip = argv[1]};
+    yb_gpiod_bus_t *bus = NULL;
+    if (yb_gpiod_pins_parse(&pins, argv[2], error, sizeof error))
+        bus = yb_gpiod_bus_open(&pins, error, sizeof error);
     if (bus == NULL) {
         fprintf(stderr, "draw_frame: %s\n", error);
         return 1;
@@ -78,5 +73,5 @@ int main(int argc, char **argv)
     if (!drawn)
         fprintf(stderr, "draw_frame: %s\n", yb_gpiod_bus_error(bus));
     yb_gpiod_bus_close(bus);
-    return drawn ? write_frame(argv[7], frame, sizeof frame) : 1;
+    return drawn ? write_frame(argv[3], frame, sizeof frame) : 1;
 }

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -36,6 +37,17 @@ static uint32_t u32_at(const uint8_t *bytes)
     return value;
 }
 
+/* Reads the number that follows `label` at the beginning of a line. */
+static bool number_after(const char *text, const char *label, unsigned *number)
+{
+    const size_t length = strlen(label);
+
+    if (strncmp(text, label, length) != 0)
+        return false;
+    *number = (unsigned)strtoul(text + length, NULL, 10);
+    return true;
+}
+
 static bool read_layout(const char *tracing, layout_t *layout)
 {
     char path[256];
@@ -49,10 +61,10 @@ static bool read_layout(const char *tracing, layout_t *layout)
         return false;
     }
     while (fgets(text, sizeof text, file) != NULL) {
-        found += sscanf(text, "ID: %u", &layout->id) == 1;
-        found += sscanf(text, " field:unsigned gpio; offset:%u;", &layout->line_at) == 1;
-        found += sscanf(text, " field:int get; offset:%u;", &layout->get_at) == 1;
-        found += sscanf(text, " field:int value; offset:%u;", &layout->value_at) == 1;
+        found += number_after(text, "ID: ", &layout->id);
+        found += number_after(text, "\tfield:unsigned gpio;\toffset:", &layout->line_at);
+        found += number_after(text, "\tfield:int get;\toffset:", &layout->get_at);
+        found += number_after(text, "\tfield:int value;\toffset:", &layout->value_at);
     }
     fclose(file);
     if (found != 4)
@@ -109,7 +121,7 @@ bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
 {
     uint8_t page[PAGE_BYTES];
     char path[256];
-    layout_t layout;
+    layout_t layout = {0};
     ssize_t got;
     bool well = true;
 

@@ -147,10 +147,11 @@ static bool read_identity(player_t *player, const char *text)
     if (player->refuses || player->is_silent)
         return true;
     for (; text[0] != '\0' && player->identity_bytes < sizeof player->identity; text += 2) {
-        unsigned byte;
-        if (sscanf(text, "%2x", &byte) != 1 || text[1] == '\0')
+        const char digits[] = {text[0], text[1], '\0'};
+        char *end;
+        player->identity[player->identity_bytes++] = (uint8_t)strtoul(digits, &end, 16);
+        if (end != digits + 2)
             return false;
-        player->identity[player->identity_bytes++] = (uint8_t)byte;
     }
     return player->identity_bytes > 0;
 }
