@@ -43,7 +43,7 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
     *view = (yb_view_t){
         .zoom_q12 = 4392,
         .exaggerate_q8 = 256,
-        .edge_q4 = 64,
+        .edge_q4 = 96,
         .walls = true,
         .water_q8 = YB_NO_WATER,
     };
