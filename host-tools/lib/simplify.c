@@ -210,11 +210,6 @@ static int turn(yb_step_t a, yb_step_t b, yb_step_t c)
     return (area > 0) - (area < 0);
 }
 
-static bool same(yb_step_t a, yb_step_t b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
 /* p on the segment ab, ends included. */
 static bool on_segment(yb_step_t p, yb_step_t a, yb_step_t b)
 {
@@ -245,6 +240,12 @@ static bool contours_meet(const yb_step_t *a, int a_count, bool a_open, const yb
     return false;
 }
 
+/* Two segments from one to the next that run back over each other. */
+static bool folds(yb_step_t before, yb_step_t shared, yb_step_t after)
+{
+    return on_segment(after, before, shared) || on_segment(before, shared, after);
+}
+
 static bool meets_itself(const yb_step_t *point, int count, bool open)
 {
     int segments = segment_count(count, open);
@@ -254,11 +255,11 @@ static bool meets_itself(const yb_step_t *point, int count, bool open)
             yb_step_t b = point[(i + 1) % count];
             yb_step_t c = point[k];
             yb_step_t d = point[(k + 1) % count];
-            if (same(b, c) || same(d, a)) {
-                /* Neighbours share a point; more than that is a fold. */
-                if (same(b, c) && (on_segment(d, a, b) || on_segment(a, c, d)))
+            if (k == i + 1) {
+                if (folds(a, b, d))
                     return true;
-                if (same(d, a) && (on_segment(c, a, b) || on_segment(b, c, d)))
+            } else if (!open && i == 0 && k == segments - 1) {
+                if (folds(c, a, b))
                     return true;
             } else if (segments_meet(a, b, c, d)) {
                 return true;
