@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum {
-    REFINE_Q8 = 4 * 256,
+    REFINE_Q8 = 16 * 256,
     MOST_SIDE = 256
 };
 

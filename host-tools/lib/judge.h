@@ -14,7 +14,7 @@ typedef struct yb_judge yb_judge_t;
 yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side);
 void yb_judge_free(yb_judge_t *judge);
 
-/* Root of the mean squared difference in metres at the samples, refining to edges of 4 steps; a
+/* Root of the mean squared difference in metres at the samples, refining to edges of 16 steps; a
  * negative number if the code is impossible. The judge keeps the differences until the next call.
  */
 double yb_judge_rmse_m(yb_judge_t *judge, const yb_paper_t *paper);

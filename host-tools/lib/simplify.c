@@ -268,8 +268,17 @@ static bool meets_itself(const yb_step_t *point, int count, bool open)
     return false;
 }
 
+/* Both on the same side of the frame. */
+static bool along_frame(const yb_paper_t *paper, yb_step_t a, yb_step_t b)
+{
+    return (a.x == b.x && (a.x == 0 || a.x == paper->east)) ||
+           (a.y == b.y && (a.y == 0 || a.y == paper->north));
+}
+
 bool yb_simplify_fits(const yb_paper_t *paper, const yb_step_t *point, int count, bool open)
 {
+    if (open && count == 2 && along_frame(paper, point[0], point[1]))
+        return false;
     if (count > 1 && meets_itself(point, count, open))
         return false;
     const yb_step_t *other = paper->point;
