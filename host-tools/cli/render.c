@@ -14,7 +14,13 @@
 #include "still.h"
 #include "view_options.h"
 
-enum { OPTION_PANEL = 256, OPTION_ORBIT, OPTION_JSON, OPTION_FORCE, OPTION_HELP };
+enum {
+    OPTION_PANEL = 256,
+    OPTION_ORBIT,
+    OPTION_JSON,
+    OPTION_FORCE,
+    OPTION_HELP
+};
 
 static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                         {"panel", required_argument, NULL, OPTION_PANEL},
@@ -108,8 +114,8 @@ static int check(request_t *request)
     if (request->panel != NULL && (yb_view_options_given(view, YB_OPTION_SIZE) ||
                                    yb_view_options_given(view, YB_OPTION_FORMAT)))
         return cli_usage("--panel fixes size and format: leave --size and --format out");
-    if (request->orbit != 0 && (yb_view_options_given(view, YB_OPTION_EYE) ||
-                                yb_view_options_given(view, YB_OPTION_VIEW)))
+    if (request->orbit != 0 &&
+        (yb_view_options_given(view, YB_OPTION_EYE) || yb_view_options_given(view, YB_OPTION_VIEW)))
         return cli_usage("--orbit places the eye: leave --eye and --view out");
     if (request->orbit != 0 && !yb_numbered_check(request->output, &error))
         return cli_usage("--orbit: %s", error.text);
@@ -170,12 +176,12 @@ static bool make_orbit(const request_t *request, yb_map_t *map, json_t **json, y
     json_t *frames = json_array();
     bool good = orbit_names_free(request, error);
     for (int i = 0; good && i < request->orbit; i++) {
-        yb_view_options_t options = request->view;
+        yb_view_options_t turned = request->view;
         yb_view_t view;
         json_t *frame = NULL;
         char *path = yb_numbered_name(request->output, i);
-        options.azimuth_deg = fmod(options.azimuth_deg + 360.0 * i / (double)request->orbit, 360);
-        good = path != NULL ? yb_view_options_apply(&options, map, &view, error)
+        turned.azimuth_deg = fmod(turned.azimuth_deg + 360.0 * i / (double)request->orbit, 360);
+        good = path != NULL ? yb_view_options_apply(&turned, map, &view, error)
                             : yb_error_set(error, "not enough memory");
         good = good && make_frame(request, map, &view, path, &frame, error);
         if (frame != NULL)

@@ -8,7 +8,9 @@ static const struct {
 } panels[] = {
     {"ssd0323", {.width = 128, .height = 64, .format = YB_GREY4}},
 };
-enum { PANELS = sizeof(panels) / sizeof(panels[0]) };
+enum {
+    PANELS = sizeof(panels) / sizeof(panels[0])
+};
 
 const char *yb_panel_list_name(int which)
 {

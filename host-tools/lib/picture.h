@@ -19,8 +19,7 @@ bool yb_picture_init(yb_picture_t *picture, uint32_t width, uint32_t height, uin
 void yb_picture_free(yb_picture_t *picture);
 
 /* A frame's pixels, yb_screen_pitch bytes a row. False: no memory. */
-bool yb_picture_from_frame(yb_picture_t *picture, const yb_screen_t *screen,
-                           const uint8_t *pixels);
+bool yb_picture_from_frame(yb_picture_t *picture, const yb_screen_t *screen, const uint8_t *pixels);
 
 /* The whole PNG file in memory, to be freed. NULL: no memory. */
 uint8_t *yb_picture_png(const yb_picture_t *picture, size_t *size);

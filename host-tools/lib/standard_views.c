@@ -1,10 +1,14 @@
 #include "standard_views.h"
 
-enum { ORBIT_DISTANCE_Q8 = 307, EYE_PARTS = 100, LOOK_DOWN_PARTS = 6, NEAR_PARTS = 16 };
+enum {
+    ORBIT_DISTANCE_Q8 = 307,
+    EYE_PARTS = 100,
+    LOOK_DOWN_PARTS = 6,
+    NEAR_PARTS = 16
+};
 
-static const char *const names[YB_STANDARD_VIEWS] = {"orbit-45",  "orbit-135", "orbit-225",
-                                                     "orbit-315", "summit-1",  "summit-2",
-                                                     "walk-1",    "walk-2"};
+static const char *const names[YB_STANDARD_VIEWS] = {
+    "orbit-45", "orbit-135", "orbit-225", "orbit-315", "summit-1", "summit-2", "walk-1", "walk-2"};
 
 typedef struct {
     bool found;
@@ -65,8 +69,7 @@ static void look_from_summit(yb_view_t *view, const yb_map_t *map, bool back)
 {
     const int32_t width = map_width_q8(map);
     const summit_t summit = find_summit(map);
-    const bool along_x =
-        room(summit.x_q8, map->east_q8) >= room(summit.y_q8, map->north_q8);
+    const bool along_x = room(summit.x_q8, map->east_q8) >= room(summit.y_q8, map->north_q8);
     const int32_t ahead = back ? -width : width;
 
     view->eye_q8[0] = summit.x_q8;

@@ -8,8 +8,7 @@ bool yb_still_draw(yb_still_t *still, const yb_map_t *map, const yb_view_t *view
                    const yb_screen_t *screen, uint16_t band_rows)
 {
     const size_t pitch = yb_screen_pitch(screen);
-    const uint16_t rows =
-        band_rows == 0 || band_rows > screen->height ? screen->height : band_rows;
+    const uint16_t rows = band_rows == 0 || band_rows > screen->height ? screen->height : band_rows;
     *still = (yb_still_t){.view = *view, .screen = *screen};
     still->pixels = malloc(pitch * screen->height);
     yb_frame_t *frame = malloc(sizeof(*frame));

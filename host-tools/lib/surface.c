@@ -199,8 +199,7 @@ float *yb_raster_heights(const yb_map_t *map, const yb_raster_t *raster)
         const uint16_t y = place_q8(raster->south_m, raster->cell_m, j, step_m, map->north_q8);
         for (uint32_t i = 0; i < raster->columns; i++) {
             const uint16_t x = place_q8(raster->west_m, raster->cell_m, i, step_m, map->east_q8);
-            z_m[(size_t)j * raster->columns + i] =
-                (float)yb_map_z_m(map, yb_map_height(map, x, y));
+            z_m[(size_t)j * raster->columns + i] = (float)yb_map_z_m(map, yb_map_height(map, x, y));
         }
     }
     return z_m;

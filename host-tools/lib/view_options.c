@@ -9,7 +9,9 @@
 #include "surface.h"
 
 /* The engine moves positions that are farther than this back to it. */
-enum { FARTHEST_STEPS = 4096 };
+enum {
+    FARTHEST_STEPS = 4096
+};
 
 const char yb_view_options_help[] =
     "  --size WxH          pixels (default 640x480)\n"
@@ -109,7 +111,8 @@ static bool parse_word(const char *name, const char *const *words, int *which, y
         if (strcmp(words[*which], optarg) == 0)
             return true;
     }
-    return yb_error_set(error, "--%s: there is no '%s'; 'yamabiko render --help' lists what there is",
+    return yb_error_set(error,
+                        "--%s: there is no '%s'; 'yamabiko render --help' lists what there is",
                         name, optarg);
 }
 
@@ -247,9 +250,8 @@ static bool apply_eye(const yb_view_options_t *options, const yb_map_t *map, yb_
 {
     /* The orbit's look is the middle of the map. */
     yb_view_orbit(view, map, 0, 0, 256);
-    view->azimuth_bam = yb_view_options_given(options, YB_OPTION_AZIMUTH)
-                            ? bam(options->azimuth_deg)
-                            : 0;
+    view->azimuth_bam =
+        yb_view_options_given(options, YB_OPTION_AZIMUTH) ? bam(options->azimuth_deg) : 0;
     if (!place_to_q8(options->eye_m, map, view, view->eye_q8))
         return yb_error_set(error, "--eye: the eye is more than %d steps of %g m from the map",
                             FARTHEST_STEPS, yb_map_cell_m(map));
