@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FRAME_CORNERS = 4 };
+enum {
+    FRAME_CORNERS = 4
+};
 
 /* Areas below this share of the frame are no regions. */
 static const double least_share = 1e-12;
@@ -69,8 +71,7 @@ static GEOSGeometry *make_shape(GEOSContextHandle_t geos, const yb_point2_t *rin
     for (size_t i = 0; i <= count; i++)
         GEOSCoordSeq_setXY_r(geos, sequence, (unsigned)i, ring[i % count].x, ring[i % count].y);
     GEOSGeometry *shell = GEOSGeom_createLinearRing_r(geos, sequence);
-    GEOSGeometry *polygon =
-        shell != NULL ? GEOSGeom_createPolygon_r(geos, shell, NULL, 0) : NULL;
+    GEOSGeometry *polygon = shell != NULL ? GEOSGeom_createPolygon_r(geos, shell, NULL, 0) : NULL;
     if (polygon == NULL || GEOSisValid_r(geos, polygon) == 1)
         return polygon;
     GEOSMakeValidParams *how = GEOSMakeValidParams_create_r(geos);
@@ -163,8 +164,7 @@ static GEOSGeometry *line_of(GEOSContextHandle_t geos, const yb_region_t *region
     return GEOSGeom_createLineString_r(geos, sequence);
 }
 
-double yb_region_line_distance(GEOSContextHandle_t geos, const yb_region_t *a,
-                               const yb_region_t *b)
+double yb_region_line_distance(GEOSContextHandle_t geos, const yb_region_t *a, const yb_region_t *b)
 {
     double distance = 0;
     GEOSGeometry *first = line_of(geos, a), *second = line_of(geos, b);

@@ -70,7 +70,8 @@ static double arc_nearest(const arc_t *arc, yb_point2_t place)
         const yb_point2_t a = region->point[i], b = region->point[(i + 1) % region->count];
         const double dx = b.x - a.x, dy = b.y - a.y;
         const double square = dx * dx + dy * dy;
-        const double along = square > 0 ? ((place.x - a.x) * dx + (place.y - a.y) * dy) / square : 0;
+        const double along =
+            square > 0 ? ((place.x - a.x) * dx + (place.y - a.y) * dy) / square : 0;
         const double share = fmin(fmax(along, 0), 1);
         const double away = distance(place, (yb_point2_t){a.x + dx * share, a.y + dy * share});
         if (away < best) {
@@ -137,8 +138,8 @@ static double match(GEOSContextHandle_t geos, const yb_region_t *target, const y
         const int count = yb_region_make(geos, region, &lines->line[i], east, north);
         for (int side = 0; side < count; side++) {
             /* No overlap is better than the ratio of the areas: that spares most intersections. */
-            const double limit = fmin(region[side].area, target->area) /
-                                 fmax(region[side].area, target->area);
+            const double limit =
+                fmin(region[side].area, target->area) / fmax(region[side].area, target->area);
             const double overlap =
                 limit > most ? yb_region_overlap(geos, target, &region[side]) : 0;
             if (overlap > most) {
@@ -175,8 +176,7 @@ static bool compare(GEOSContextHandle_t geos, yb_similarity_t *similarity,
         const double radius = sqrt(original->area / acos(-1.0));
         similarity->distance = 1 - fmin(1, similarity->hausdorff / radius);
         similarity->curvature = curvature_agreement(&first, &second);
-        similarity->k =
-            (similarity->area + similarity->distance + similarity->curvature) / 3;
+        similarity->k = (similarity->area + similarity->distance + similarity->curvature) / 3;
     }
     free(first.at);
     free(second.at);
@@ -199,9 +199,8 @@ bool yb_similarity_measure(yb_similarity_t *similarity, const yb_isoline_t *code
                            const yb_isolines_t *originals, const yb_isolines_t *reproductions,
                            double east, double north)
 {
-    *similarity = (yb_similarity_t){.length = polygon_length(coded),
-                                    .original = YB_NO_LINE,
-                                    .reproduced = YB_NO_LINE};
+    *similarity = (yb_similarity_t){
+        .length = polygon_length(coded), .original = YB_NO_LINE, .reproduced = YB_NO_LINE};
     GEOSContextHandle_t geos = yb_region_geos();
     if (geos == NULL)
         return false;
