@@ -1,0 +1,1 @@
+yb_firmware(yamabiko-microbit boards/microbit/main.c)
