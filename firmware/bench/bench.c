@@ -11,6 +11,7 @@
  * and the program then ends the emulator by semihosting. tests/budget reads this.
  */
 #include "board.h"
+#include "standard_views.h"
 #include "yamabiko/yamabiko.h"
 
 /* Bytes for a band's depth and pixels: the largest band measured is the largest that fits. */
@@ -95,7 +96,7 @@ static uint32_t stack_used(void)
 
 /* --- What is measured ------------------------------------------------------------------------- */
 
-static const uint16_t azimuths_degrees[] = {45, 135, 225, 315};
+static yb_view_t views[YB_STANDARD_VIEWS];
 
 typedef struct {
     const char *name;
@@ -128,19 +129,25 @@ static void draw(const setting_t *setting, const yb_view_t *view)
         yb_frame_band(&work.frame, &band);
 }
 
-static void measure_frame(const setting_t *setting, uint16_t azimuth_degrees)
+static void measure_frame(const setting_t *setting, int which)
 {
-    yb_view_t view;
-    yb_view_init(&view, &map);
-    yb_view_orbit(&view, &map, YB_DEGREES(azimuth_degrees), YB_DEGREES(30), 307);
     say("region frame ");
     say(setting->name);
-    say(" orbit-");
-    say_number(azimuth_degrees);
+    say(" ");
+    say(yb_standard_view_name(which));
     say("\r\n");
     yb_mark_begin();
-    draw(setting, &view);
+    draw(setting, &views[which]);
     yb_mark_end();
+}
+
+static void measure_frames(const setting_t *setting)
+{
+    say_line("size", "band-", setting->name, band_bytes(setting));
+    paint_stack();
+    for (int which = 0; which < YB_STANDARD_VIEWS; which++)
+        measure_frame(setting, which);
+    say_line("stack", "frame-", setting->name, stack_used());
 }
 
 static bool measure_load(void)
@@ -174,14 +181,13 @@ static void measure_all(void)
     if (!measure_load())
         return;
     say_line("size", "vertices", "", map.vertex_count);
+    for (int which = 0; which < YB_STANDARD_VIEWS; which++) {
+        yb_view_init(&views[which], &map);
+        yb_standard_view_set(&views[which], &map, (yb_standard_view_t)which);
+    }
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
-        if (band_bytes(&settings[i]) > BENCH_BAND_BYTES)
-            continue;
-        say_line("size", "band-", settings[i].name, band_bytes(&settings[i]));
-        paint_stack();
-        for (size_t k = 0; k < sizeof azimuths_degrees / sizeof azimuths_degrees[0]; k++)
-            measure_frame(&settings[i], azimuths_degrees[k]);
-        say_line("stack", "frame-", settings[i].name, stack_used());
+        if (band_bytes(&settings[i]) <= BENCH_BAND_BYTES)
+            measure_frames(&settings[i]);
     }
 }
 

@@ -21,7 +21,9 @@ FIRMWARE = pathlib.Path(os.environ.get("YB_FIRMWARE", ROOT / "build"))
 PLUGIN = os.environ.get("YB_COUNT", str(ROOT / "build/host-release/tests/budget/libyb_count.so"))
 
 # The boards that are measured, and the name their figures go under.
-TARGETS = {"lm3s6965evb": "cortex-m3", "microbit": "cortex-m0"}
+TARGETS = {"lm3s6965evb": "cortex-m3", "microbit": "cortex-m0", "mps2-an385": "cortex-m3-4mb"}
+# Those of them that a program is written for; the other has RAM for what they cannot hold.
+DEVICES = ("lm3s6965evb", "microbit")
 
 PATIENCE_S = 120
 

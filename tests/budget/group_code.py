@@ -4,7 +4,8 @@ import boards
 
 
 def measure():
-    for board, target in boards.TARGETS.items():
+    for board in boards.DEVICES:
+        target = boards.TARGETS[board]
         sizes = boards.section_sizes(boards.engine_archive(board))
         for what in (".text", ".rodata"):
             total = sum(size for name, size in sizes.items()

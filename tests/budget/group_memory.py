@@ -29,5 +29,5 @@ def measure_board(board):
 
 
 def measure():
-    for board in boards.TARGETS:
+    for board in boards.DEVICES:
         yield from measure_board(board)

@@ -3,5 +3,4 @@ yb_firmware(yamabiko-lm3s6965evb
 target_link_libraries(yamabiko-lm3s6965evb PRIVATE yamabiko::panels)
 
 # 64 KB of RAM hold a full-height band of 128 x 64 beside the engine's structs.
-yb_firmware(bench-lm3s6965evb bench/bench.c)
-target_compile_definitions(bench-lm3s6965evb PRIVATE BENCH_BAND_BYTES=20480)
+yb_bench(20480)

@@ -1,4 +1,4 @@
 yb_firmware(yamabiko-microbit boards/microbit/main.c)
 
-yb_firmware(bench-microbit bench/bench.c)
-target_compile_definitions(bench-microbit PRIVATE BENCH_BAND_BYTES=2560)
+# 16 KB hold the viewer's band and no more.
+yb_bench(2560)
