@@ -13,7 +13,8 @@
 #include <gdal.h>
 #include <gdal_alg.h>
 #include <gdal_utils.h>
-#include <ogr_srs_api.h>
+
+#include "ground.h"
 
 enum {
     FEWEST_CELLS = 8,
@@ -176,82 +177,15 @@ static bool source_open(source_t *source, double cell_m, yb_error_t *error)
     return true;
 }
 
-/* Whether a length in the raster's coordinates is a length on the ground, in metres. */
-static bool in_metres(OGRSpatialReferenceH srs)
-{
-    if (srs == NULL || OSRIsLocal(srs) != 0)
-        return true;
-    if (OSRIsProjected(srs) == 0)
-        return false;
-    const char *projection = OSRGetAttrValue(srs, "PROJECTION", 0);
-    if (projection != NULL && strstr(projection, "Mercator") != NULL &&
-        strstr(projection, "Transverse") == NULL && strstr(projection, "Oblique") == NULL)
-        return false; /* its scale grows with the latitude */
-    return fabs(OSRGetLinearUnits(srs, NULL) - 1.0) < 1e-6;
-}
-
-static OGRSpatialReferenceH lon_lat(void)
-{
-    OGRSpatialReferenceH srs = OSRNewSpatialReference(NULL);
-    OSRSetWellKnownGeogCS(srs, "WGS84");
-    OSRSetAxisMappingStrategy(srs, OAMS_TRADITIONAL_GIS_ORDER);
-    return srs;
-}
-
-static bool transform_point(OGRSpatialReferenceH from, OGRSpatialReferenceH to, double *x,
-                            double *y)
-{
-    OGRCoordinateTransformationH transformation = OCTNewCoordinateTransformation(from, to);
-    if (transformation == NULL)
-        return false;
-    bool good = OCTTransform(transformation, 1, x, y, NULL) != 0 && isfinite(*x) && isfinite(*y);
-    OCTDestroyCoordinateTransformation(transformation);
-    return good;
-}
-
-/* The largest upright box inside the image of `box` in the local projection. */
-static bool box_inside(const source_t *source, const double box[4], double inner[4])
-{
-    OGRCoordinateTransformationH transformation =
-        OCTNewCoordinateTransformation(source->srs, source->local);
-    if (transformation == NULL)
-        return false;
-    bool good = true;
-    for (int side = 0; side < 4; side++)
-        for (int i = 0; i < SIDE_SAMPLES; i++) {
-            double along = (double)i / (SIDE_SAMPLES - 1);
-            double x = side % 2 == 0 ? box[side] : box[0] + along * (box[2] - box[0]);
-            double y = side % 2 == 1 ? box[side] : box[1] + along * (box[3] - box[1]);
-            if (OCTTransform(transformation, 1, &x, &y, NULL) == 0 || !isfinite(x) || !isfinite(y))
-                good = false;
-            double value = side % 2 == 0 ? x : y;
-            if (i == 0)
-                inner[side] = value;
-            else
-                inner[side] = side < 2 ? fmax(inner[side], value) : fmin(inner[side], value);
-        }
-    OCTDestroyCoordinateTransformation(transformation);
-    return good && inner[0] < inner[2] && inner[1] < inner[3];
-}
-
 /* Chooses the local projection through (x, y) of the raster's coordinates. */
 static bool source_localise(source_t *source, double x, double y, yb_error_t *error)
 {
-    OGRSpatialReferenceH degrees = lon_lat();
-    double lon = x;
-    double lat = y;
-    bool good = transform_point(source->srs, degrees, &lon, &lat);
-    source->local = degrees;
-    if (good) {
-        OSRSetProjCS(degrees, "local transverse Mercator");
-        OSRSetTM(degrees, lat, lon, 1, 0, 0);
-        OSRSetLinearUnits(degrees, SRS_UL_METER, 1);
-    }
+    source->local = yb_ground_local(source->srs, x, y);
     double along[2] = {x + source->transform[1], y + source->transform[4]};
     double down[2] = {x + source->transform[2], y + source->transform[5]};
-    good = good && transform_point(source->srs, source->local, &along[0], &along[1]) &&
-           transform_point(source->srs, source->local, &down[0], &down[1]);
-    if (!good)
+    if (source->local == NULL ||
+        !yb_ground_transform(source->srs, source->local, &along[0], &along[1]) ||
+        !yb_ground_transform(source->srs, source->local, &down[0], &down[1]))
         return yb_error_set(error, "cannot find metres for the coordinates of %s: %s", source->path,
                             CPLGetLastErrorMsg());
     source->native_m = sqrt(hypot(along[0], along[1]) * hypot(down[0], down[1]));
@@ -282,10 +216,10 @@ static bool choose_center(source_t *source, const yb_window_t *window, yb_error_
     if (source->srs == NULL || OSRIsLocal(source->srs) != 0)
         return yb_error_set(error, "%s does not say where on earth it lies; use --window",
                             source->path);
-    OGRSpatialReferenceH degrees = lon_lat();
+    OGRSpatialReferenceH degrees = yb_ground_lon_lat();
     double x = window->lon_deg;
     double y = window->lat_deg;
-    bool good = transform_point(degrees, source->srs, &x, &y);
+    bool good = yb_ground_transform(degrees, source->srs, &x, &y);
     OSRDestroySpatialReference(degrees);
     if (!good)
         return yb_error_set(error, "the coordinates of %s do not reach longitude %g, latitude %g",
@@ -294,7 +228,7 @@ static bool choose_center(source_t *source, const yb_window_t *window, yb_error_
     if (!box_covered(source, point))
         return yb_error_set(error, "longitude %g, latitude %g does not lie on %s", window->lon_deg,
                             window->lat_deg, source->path);
-    if (in_metres(source->srs)) {
+    if (yb_ground_in_metres(source->srs)) {
         source->native_m = sqrt(fabs(source->transform[1] * source->transform[5]));
     } else {
         if (!source_localise(source, x, y, error))
@@ -321,7 +255,7 @@ static bool source_choose(source_t *source, const yb_window_t *window, yb_error_
     const double *box = window->kind == YB_WINDOW_BOX ? window->box : source->bounds;
     if (!box_covered(source, box))
         return outside(source, error);
-    if (in_metres(source->srs)) {
+    if (yb_ground_in_metres(source->srs)) {
         source->native_m = sqrt(hypot(source->transform[1], source->transform[4]) *
                                 hypot(source->transform[2], source->transform[5]));
         memcpy(source->box, box, sizeof(source->box));
@@ -329,7 +263,7 @@ static bool source_choose(source_t *source, const yb_window_t *window, yb_error_
     }
     if (!source_localise(source, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2, error))
         return false;
-    if (!box_inside(source, box, source->box))
+    if (!yb_ground_box_inside(source->srs, source->local, box, source->box))
         return yb_error_set(error,
                             "%s covers too much of the earth for one map: choose a part by "
                             "--window or --center",

@@ -169,6 +169,16 @@ bool yb_isolines_add(yb_isolines_t *lines, const yb_mesh_t *mesh, double height_
     return good;
 }
 
+yb_isolines_t yb_isolines_at(const yb_isolines_t *lines, double height_m)
+{
+    size_t first = 0, end = 0;
+    while (first < lines->count && lines->line[first].height_m != height_m)
+        first++;
+    for (end = first; end < lines->count && lines->line[end].height_m == height_m;)
+        end++;
+    return (yb_isolines_t){first < end ? lines->line + first : NULL, end - first};
+}
+
 void yb_isolines_free(yb_isolines_t *lines)
 {
     for (size_t i = 0; i < lines->count; i++)

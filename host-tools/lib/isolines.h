@@ -37,6 +37,9 @@ typedef struct {
  */
 bool yb_isolines_add(yb_isolines_t *lines, const yb_mesh_t *mesh, double height_m);
 
+/* The lines of one height, which were added together: a view into *lines, not to be freed. */
+yb_isolines_t yb_isolines_at(const yb_isolines_t *lines, double height_m);
+
 void yb_isolines_free(yb_isolines_t *lines);
 
 #endif

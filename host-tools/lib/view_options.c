@@ -25,10 +25,10 @@ const char yb_view_options_help[] =
     "  --eye X Y Z         metres from the map's south-west corner, Z above the datum;\n"
     "                      instead of --view, --elevation and --distance\n"
     "  --look X Y Z        what the eye looks at (default: the map's middle)\n"
-    "  --fov DEG           width of the picture, 4 to 150 (default 50)\n"
+    "  --fov DEG           width of the picture, 4 to 126 (default 50)\n"
     "  --sun AZ EL         direction of the light (default 315 45)\n"
     "  --water M           water up to M metres above the datum\n"
-    "  --exaggerate F      vertical scale, 0.01 to 100 (default 1)\n"
+    "  --exaggerate F      vertical scale, 0.01 to 8 (default 1)\n"
     "  --walls on|off      the sides of the block (default on)\n"
     "  --edge PIXELS       longest edge of a triangle on the screen (default 4)\n"
     "  --max-leaves N      at most N triangles (default: no bound)\n"
@@ -190,13 +190,13 @@ bool yb_view_options_take(yb_view_options_t *options, int option, int argc, char
     case YB_OPTION_DISTANCE:
         return parse_number("distance", optarg, 0.01, 15, &options->distance, error);
     case YB_OPTION_FOV:
-        return parse_number("fov", optarg, 4, 150, &options->fov_deg, error);
+        return parse_number("fov", optarg, 4, 126, &options->fov_deg, error);
     case YB_OPTION_SUN:
         return parse_numbers("sun", argc, argv, 2, sun_low, sun_high, options->sun_deg, error);
     case YB_OPTION_WATER:
         return parse_number("water", optarg, -1e6, 1e6, &options->water_m, error);
     case YB_OPTION_EXAGGERATE:
-        return parse_number("exaggerate", optarg, 0.01, 100, &options->exaggerate, error);
+        return parse_number("exaggerate", optarg, 0.01, 8, &options->exaggerate, error);
     default:
         return take_picture(options, option, error);
     }

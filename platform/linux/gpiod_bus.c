@@ -95,10 +95,12 @@ static bool send_data(void *context, const uint8_t *bytes, size_t count)
 static void wait_ms(void *context, uint32_t ms)
 {
     struct timespec left = {.tv_sec = (time_t)(ms / 1000), .tv_nsec = (long)(ms % 1000) * 1000000};
+    int status;
 
     (void)context;
-    while (nanosleep(&left, &left) != 0 && errno == EINTR)
-        continue;
+    do
+        status = nanosleep(&left, &left);
+    while (status != 0 && errno == EINTR);
 }
 
 static bool pull_reset(void *context)

@@ -16,7 +16,7 @@
  *     const yb_panel_t *panel = &yb_panel_ssd0323;
  *     if (!panel->init(&bus))
  *         return false;
- *     for (uint16_t y = 0; y < panel->height; y += BAND_ROWS) {
+ *     for (uint16_t y = 0; y < panel->screen.height; y += BAND_ROWS) {
  *         draw(band, y);
  *         if (!yb_panel_write_rows(panel, &bus, y, BAND_ROWS, band))
  *             return false;
@@ -28,12 +28,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-/* The bytes of a pixel row as a panel takes them. */
-typedef enum {
-    YB_PANEL_GREY4,  /* two pixels a byte, the high nibble is the left one; 15 is white */
-    YB_PANEL_RGB565, /* two bytes a pixel, high byte first */
-} yb_panel_format_t;
+#include <yamabiko/yamabiko.h>
 
 /* How a panel's driver reaches the display; filled in by the port, which owns the context. Every
  * function but `wait_ms` and `reset` must be there, and answers false when the bus failed (why is
@@ -60,10 +55,8 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    uint16_t width;
-    uint16_t height;
-    yb_panel_format_t format;
-    uint32_t spi_hz; /* the fastest serial clock that the datasheet allows */
+    yb_screen_t screen; /* size and pixels, as the engine draws for it */
+    uint32_t spi_hz;    /* the fastest serial clock that the datasheet allows */
 
     /* Resets the display, sets it up, blackens it and switches it on. */
     bool (*init)(const yb_panel_bus_t *bus);
@@ -77,12 +70,6 @@ typedef struct {
 /* Solomon SSD0323 on an OSRAM Pictiva 128 x 64 glass: 16 greys. */
 extern const yb_panel_t yb_panel_ssd0323;
 
-/* How many bytes a row of `width` pixels has (`width` even where two pixels share a byte). */
-static inline size_t yb_panel_row_bytes(const yb_panel_t *panel, uint16_t width)
-{
-    return panel->format == YB_PANEL_GREY4 ? (size_t)width / 2 : (size_t)width * 2;
-}
-
 /* Writes a band: `rows` full rows from row `y` down, one after the other in `pixels`. */
 static inline bool yb_panel_write_rows(const yb_panel_t *panel, const yb_panel_bus_t *bus,
                                        uint16_t y, uint16_t rows, const uint8_t *pixels)
@@ -90,10 +77,10 @@ static inline bool yb_panel_write_rows(const yb_panel_t *panel, const yb_panel_b
     const yb_panel_window_t band = {
         .x = 0,
         .y = y,
-        .width = panel->width,
+        .width = panel->screen.width,
         .rows = rows,
         .pixels = pixels,
-        .pitch_bytes = yb_panel_row_bytes(panel, panel->width),
+        .pitch_bytes = yb_screen_pitch(&panel->screen),
     };
     return panel->write(bus, &band);
 }

@@ -156,9 +156,7 @@ static bool ssd0323_write(const yb_panel_bus_t *bus, const yb_panel_window_t *wi
 
 const yb_panel_t yb_panel_ssd0323 = {
     .name = "ssd0323",
-    .width = WIDTH,
-    .height = HEIGHT,
-    .format = YB_PANEL_GREY4,
+    .screen = {.width = WIDTH, .height = HEIGHT, .format = YB_GREY4},
     /* Datasheet, "Serial Interface Characteristics": a clock cycle takes 250 ns or more. */
     .spi_hz = 4000000,
     .init = ssd0323_init,

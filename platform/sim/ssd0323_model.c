@@ -56,15 +56,14 @@ static bool fail(yb_ssd0323_model_t *model, const char *format, ...)
 
 static bool fail(yb_ssd0323_model_t *model, const char *format, ...)
 {
-    if (!model->failed) {
-        const int used =
-            snprintf(model->error, sizeof model->error, "byte %lu: ", (unsigned long)model->bytes);
-        va_list args;
-        va_start(args, format);
-        (void)vsnprintf(model->error + used, sizeof model->error - (size_t)used, format, args);
-        va_end(args);
-        model->failed = true;
-    }
+    va_list args;
+
+    const int used =
+        snprintf(model->error, sizeof model->error, "byte %lu: ", (unsigned long)model->bytes);
+    va_start(args, format);
+    (void)vsnprintf(model->error + used, sizeof model->error - (size_t)used, format, args);
+    va_end(args);
+    model->failed = true;
     return false;
 }
 

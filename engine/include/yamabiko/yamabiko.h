@@ -139,11 +139,11 @@ typedef struct {
 
 /* One contour of a code, as decoded. */
 typedef struct {
-    uint8_t first;  /* index of its first vertex */
-    uint8_t count;  /* points: 1 is a summit (or any spot height) */
-    uint8_t above;  /* region on its left side, in the direction of its points */
-    uint8_t below;  /* region on its right side; equal to above for a spot height */
-    bool open;      /* its ends lie on the frame */
+    uint8_t first; /* index of its first vertex */
+    uint8_t count; /* points: 1 is a summit (or any spot height) */
+    uint8_t left;  /* region on its left side, in the direction of its points */
+    uint8_t right; /* region on its right side; equal to left for a spot height */
+    bool open;     /* its ends lie on the frame */
 } yb_contour_t;
 
 /* Working memory of decoding. contour[0 .. contour_count) and region_count stay valid after YB_OK
@@ -156,19 +156,22 @@ typedef struct {
     /* private: the decoder */
     uint8_t state;
     uint8_t crc;
-    uint8_t bits_held;
     uint8_t flags;
-    uint8_t contour_now, point_now;
-    uint8_t vertices_promised;
-    uint16_t points_promised;
-    uint16_t at;
+    uint8_t bits_held;
     uint32_t bits;
+    uint16_t at; /* how far the state has come */
+    uint16_t point_count;
+    uint8_t vertices_promised;
+    uint8_t gain;
     yb_status_t result;
-    uint16_t frame_height[4];
+    int32_t corner_height[4];
+    int32_t frame_height;
     uint8_t header[16];
-    /* private: the triangulation, per triangle */
+    /* private: the triangulation */
+    yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
     uint16_t neighbour[YB_MAX_TRIANGLES][3];
-    uint8_t region[YB_MAX_TRIANGLES];
+    uint16_t region[YB_MAX_TRIANGLES];
+    uint16_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
 } yb_load_t;
 
 /* Starts a code. Both structs may hold anything before; map is undefined until YB_OK. */
@@ -226,8 +229,8 @@ static inline uint32_t yb_unit_64th_m(uint16_t coded)
 #define YB_NO_WATER INT32_MIN
 
 /* How a map is looked at. Lengths are in 1/256 step, heights above the base *after* exaggeration
- * for eye and look, before it for water. Any values give a correct frame; positions are clamped to
- * ±4096 steps.
+ * for eye and look, before it for water. Any values give a correct frame: positions are clamped to
+ * ±4096 steps, the zoom to 1024 or more (127 degrees), exaggeration to 8.
  */
 typedef struct {
     int32_t eye_q8[3];
@@ -242,7 +245,7 @@ typedef struct {
     uint32_t max_leaves;     /* at most so many triangles refined in a frame; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to 4 pixels, sun in the north-west 45
+/* The standard: 50 degrees across, true scale, edges up to 6 pixels, sun in the north-west 45
  * degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
@@ -309,8 +312,17 @@ typedef struct {
     yb_point_t middle[3];
     uint8_t pattern; /* which edges are split */
     uint8_t child;   /* next child to visit */
-    uint8_t inside;  /* bounds that no longer need a test */
+    bool inside;     /* wholly in the picture: no bounds need a test any more */
 } yb_level_t;
+
+/* Rows are binned in units that fit a byte. */
+#if YB_MAX_SIDE > 2048
+#define YB_ROW_SHIFT 4
+#elif YB_MAX_SIDE > 512
+#define YB_ROW_SHIFT 3
+#else
+#define YB_ROW_SHIFT 1
+#endif
 
 /* Working memory of a frame. Only stats is for the caller to read. */
 typedef struct {
@@ -318,15 +330,17 @@ typedef struct {
     const yb_map_t *map;
     yb_view_t view;
     yb_screen_t screen;
-    int32_t turn_q14[3][3];  /* view space from steps, exaggeration included in the last column */
-    int32_t shift_q8[3];     /* and its constant part */
-    int32_t near_q8;         /* nothing nearer is drawn */
-    int32_t base_q8;         /* where the walls end */
-    uint16_t focal_q4;       /* pixels */
-    uint16_t split_q8;       /* an edge is split if its plan length * split_q8 > depth * 256 … */
-    int32_t tone_q16;        /* hue steps per height unit */
-    uint8_t first_row[YB_MAX_TRIANGLES]; /* in units of 1 << YB_ROW_SHIFT rows */
-    uint8_t last_row[YB_MAX_TRIANGLES];
+    int32_t near_q8;      /* nothing nearer is drawn */
+    int32_t near_scaled;  /* near_q8 as 15 bits … */
+    int32_t near_shift;   /* … times 2^near_shift */
+    int32_t lift_up_q9;   /* what one unit of height does to a point's up_q8 … */
+    int32_t lift_back_q9; /* … and takes off its depth_q8: exaggeration included */
+    int32_t base_q8;      /* where the walls end */
+    int32_t focal_q4;     /* pixels */
+    int32_t split_q4;     /* an edge is split if length * split_q4 > depth * 16 */
+    int32_t tone_q16;     /* hues per height unit */
+    uint8_t first_row[YB_MAX_TRIANGLES]; /* of a base triangle, in units of 1 << YB_ROW_SHIFT */
+    uint8_t last_row[YB_MAX_TRIANGLES];  /* before first_row: not on the screen */
     struct {
         int32_t right_q8, up_q8, depth_q8;
     } seen[YB_MAX_VERTICES];

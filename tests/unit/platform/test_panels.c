@@ -116,15 +116,16 @@ static void every_band_height_gives_the_frame(void **state)
     uint8_t frame[YB_SSD0323_PICTURE_BYTES];
 
     (void)state;
-    for (uint16_t rows = 1; rows <= YB_SSD0323_HEIGHT; rows++) {
+    for (unsigned rows = 1; rows <= YB_SSD0323_HEIGHT; rows++) {
         wire_t wire;
         const yb_panel_bus_t bus = connect(&wire);
         draw_noise(frame, sizeof frame, rows);
         assert_true(yb_panel_ssd0323.init(&bus));
-        for (uint16_t y = 0; y < YB_SSD0323_HEIGHT; y = (uint16_t)(y + rows)) {
-            const uint16_t left = (uint16_t)(YB_SSD0323_HEIGHT - y);
-            assert_true(yb_panel_write_rows(&yb_panel_ssd0323, &bus, y, rows < left ? rows : left,
-                                            frame + y * YB_SSD0323_COLUMNS));
+        for (unsigned y = 0; y < YB_SSD0323_HEIGHT; y += rows) {
+            const unsigned left = YB_SSD0323_HEIGHT - y;
+            assert_true(yb_panel_write_rows(&yb_panel_ssd0323, &bus, (uint16_t)y,
+                                            (uint16_t)(rows < left ? rows : left),
+                                            frame + (size_t)y * YB_SSD0323_COLUMNS));
         }
         assert_shown(&wire, frame);
     }

@@ -1,0 +1,69 @@
+/* Fixed-point arithmetic shared by the stages. Every function is exact integer arithmetic: the same
+ * on every CPU. Ranges are stated; tests/unit/test_fix.c drives their bounds.
+ */
+#ifndef YB_FIX_H
+#define YB_FIX_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* `>>` of a negative number rounds down on every compiler we know; C11 leaves it to them. */
+_Static_assert((-3 >> 1) == -2, "arithmetic right shift");
+
+static inline int32_t fix_abs(int32_t a)
+{
+    return a < 0 ? -a : a;
+}
+
+static inline int32_t fix_min(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int32_t fix_max(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+static inline int32_t fix_clamp(int32_t a, int32_t low, int32_t high)
+{
+    return a < low ? low : a > high ? high : a;
+}
+
+/* Length of a plan vector, never below the truth and at most 6.8 % above: max + 3/8 min.
+ * |dx|, |dy| < 2^28.
+ */
+static inline int32_t fix_length(int32_t dx, int32_t dy)
+{
+    dx = fix_abs(dx);
+    dy = fix_abs(dy);
+    return dx > dy ? dx + (3 * dy >> 3) : dy + (3 * dx >> 3);
+}
+
+/* Position of the highest set bit; a > 0. */
+static inline int fix_log2_floor(uint32_t a)
+{
+#if defined(__GNUC__) && __SIZEOF_INT__ >= 4
+    return 31 - __builtin_clz(a);
+#else
+    int n = 0;
+    for (int step = 16; step > 0; step >>= 1) {
+        if (a >> step != 0) {
+            a >>= step;
+            n += step;
+        }
+    }
+    return n;
+#endif
+}
+
+/* Base-2 logarithm with 11 fractional bits, a > 0; error below 2^-11. */
+int32_t fix_log2_q11(uint64_t a);
+
+/* 2^(e/2048), rounded, at most UINT32_MAX; relative error below 2^-11 where the result is large. */
+uint32_t fix_exp2_q11(int32_t e_q11);
+
+/* Whole square root, rounded down. */
+uint32_t fix_sqrt(uint64_t a);
+
+#endif

@@ -1,0 +1,59 @@
+/* A frame: prepared once, drawn band by band. */
+#include <string.h>
+
+#include "camera.h"
+#include "fix.h"
+#include "refine.h"
+#include "shade.h"
+
+/* Raises the threshold of refinement until the frame keeps to its bound. The count depends on the
+ * view alone, so every band comes to the same threshold.
+ */
+static void bound_leaves(yb_frame_t *frame)
+{
+    while (frame->view.max_leaves > 0 && frame->split_q4 > 1) {
+        frame->stats.refined = 0;
+        for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
+            if (frame->first_row[t] <= frame->last_row[t])
+                refine_draw(frame, NULL, t);
+        }
+        if (frame->stats.refined <= frame->view.max_leaves)
+            break;
+        frame->split_q4 = frame->split_q4 * 3 / 4;
+    }
+    memset(&frame->stats, 0, sizeof frame->stats);
+}
+
+void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,
+                    const yb_screen_t *screen)
+{
+    memset(&frame->stats, 0, sizeof frame->stats);
+    frame->map = map;
+    frame->view = *view;
+    frame->screen = *screen;
+    camera_begin(frame);
+    shade_begin(frame);
+    for (uint16_t t = 0; t < map->triangle_count; t++)
+        refine_bin(frame, t);
+    bound_leaves(frame);
+}
+
+void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
+{
+    raster_t raster = {
+        .screen = &frame->screen,
+        .band = band,
+        .first_row = fix_min(band->y, frame->screen.height),
+        .end_row = fix_min(band->y + band->rows, frame->screen.height),
+    };
+    if (raster.first_row >= raster.end_row)
+        return;
+    raster_clear(&raster, shade_background(frame));
+    for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
+        if (frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
+            frame->last_row[t] >= raster.first_row >> YB_ROW_SHIFT)
+            refine_draw(frame, &raster, t);
+    }
+    if (frame->view.walls)
+        walls_draw(frame, &raster);
+}

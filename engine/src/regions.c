@@ -1,0 +1,63 @@
+/* The regions between the contours: what the triangles fall into when the mesh is cut along them.
+ *
+ * Closed contours and frame-to-frame lines cut the square into regions whose adjacency is a tree,
+ * each contour being an edge of it. The triangulation already knows: triangles that share an edge
+ * which no contour runs along belong together. Union-find in one array does it in two passes.
+ */
+#include "mesh.h"
+
+static uint16_t root_of(yb_load_t *load, uint16_t t)
+{
+    while (load->region[t] != t) {
+        load->region[t] = load->region[load->region[t]]; /* halve the path */
+        t = load->region[t];
+    }
+    return t;
+}
+
+/* The region to the left of the contour edge from a to b. */
+static uint8_t left_of(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b)
+{
+    uint16_t t = first_at(map, load, a);
+    while (map->triangle[t][next3(corner_of(map, t, a))] != b)
+        t = turn_left(map, load, t, a);
+    return (uint8_t)load->region[t];
+}
+
+yb_status_t regions_find(const yb_map_t *map, yb_load_t *load)
+{
+    for (uint16_t t = 0; t < map->triangle_count; t++)
+        load->region[t] = t;
+    for (uint16_t t = 0; t < map->triangle_count; t++) {
+        for (int i = 0; i < 3; i++) {
+            uint16_t u = load->neighbour[t][i];
+            if (u >= t) /* each edge once; not across the frame, not across a contour */
+                continue;
+            /* The smaller index wins: a root is the first triangle of its region. */
+            uint16_t a = root_of(load, t);
+            uint16_t b = root_of(load, u);
+            load->region[a > b ? a : b] = a > b ? b : a;
+        }
+    }
+    /* From roots to numbers, in place: a triangle's parent has a smaller index, so it is done. */
+    load->region_count = 0;
+    for (uint16_t t = 0; t < map->triangle_count; t++) {
+        uint16_t parent = load->region[t];
+        load->region[t] = parent == t ? load->region_count++ : load->region[parent];
+    }
+    int lines = 0;
+    for (int i = 0; i < load->contour_count; i++) {
+        yb_contour_t *contour = &load->contour[i];
+        yb_index_t a = contour->first;
+        yb_index_t b = (yb_index_t)(a + 1);
+        if (contour->count > 1) {
+            contour->left = left_of(map, load, a, b);
+            contour->right = left_of(map, load, b, a);
+            lines++;
+        } else {
+            contour->left = contour->right = (uint8_t)load->region[load->star[a]];
+        }
+    }
+    /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */
+    return load->region_count == lines + 1 ? YB_OK : YB_ERR_CORRUPT;
+}

@@ -1,0 +1,218 @@
+#include "relief.h"
+
+#include <string.h>
+
+#include "mesh.h"
+
+enum {
+    HASH_MEAN = 510,   /* of the sum of four bytes; also its largest deviation */
+    HASH_LOG2_Q11 = 14761, /* log2 of its standard deviation, 147.80, in 1/2048 */
+    NOISE_SHIFT = 9
+};
+
+/* --- The midpoint of an edge ------------------------------------------------------------------ */
+
+/* Noise of a place: the sum of the four bytes of a hash of where it is, less its mean. Nearly
+ * Gaussian, within ±510.
+ */
+static int32_t place_noise(const yb_map_t *map, uint32_t x_q8, uint32_t y_q8)
+{
+    uint32_t h = (x_q8 | y_q8 << 16) + (map->seed + 1u) * 0x9e3779b9u;
+    h = (h ^ h >> 16) * 0x7feb352du;
+    h = (h ^ h >> 15) * 0x846ca68bu;
+    h ^= h >> 16;
+    return (int32_t)((h & 255) + (h >> 8 & 255) + (h >> 16 & 255) + (h >> 24)) - HASH_MEAN;
+}
+
+/* The smooth part: half way between the ends, on the parabola that has their slopes. |slope| is at
+ * most 2^13 and |d| below 2^16 - 2^8, so each product is at most 2^14 * 65280 < 2^30, and their sum
+ * with the rounding stays below 2^31.
+ */
+static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    int32_t dx = b->x_q8 - a->x_q8;
+    int32_t dy = b->y_q8 - a->y_q8;
+    int32_t rise = (a->gx_q11 - b->gx_q11) * dx + (a->gy_q11 - b->gy_q11) * dy;
+    return (rise + (1 << 13)) >> 14; /* slope 11 bits, and an eighth */
+}
+
+/* Gravity (paper, 3.3): no half edge may become steeper than 2 by its noise; a chord that already
+ * is gets none. Half edges are L/2 long and rise by half the chord's rise, plus or minus the noise.
+ */
+static int32_t limit_noise(int32_t noise, int32_t length, int32_t rise)
+{
+    int32_t limit = fix_max(length - (fix_abs(rise) >> 1), 0);
+    return fix_clamp(noise, -limit, limit);
+}
+
+void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
+                   yb_vertex_t *middle)
+{
+    int32_t dx = b->x_q8 - a->x_q8;
+    int32_t dy = b->y_q8 - a->y_q8;
+    uint16_t x = (uint16_t)((a->x_q8 + b->x_q8) >> 1);
+    uint16_t y = (uint16_t)((a->y_q8 + b->y_q8) >> 1);
+    int32_t z = (a->z_q8 + b->z_q8) >> 1;
+    if (map->smooth)
+        z += smooth_rise(a, b);
+    int32_t scale = map->noise[relief_class(dx, dy)];
+    if (map->detail && scale > 0) {
+        /* scale < 2^16, noise within 2^9: the product is within 2^25. */
+        int32_t noise = (scale * place_noise(map, x, y) + (1 << (NOISE_SHIFT - 1))) >> NOISE_SHIFT;
+        z += limit_noise(noise, fix_length(dx, dy), b->z_q8 - a->z_q8);
+    }
+    middle->x_q8 = x;
+    middle->y_q8 = y;
+    middle->z_q8 = z;
+    middle->gx_q11 = (int16_t)((a->gx_q11 + b->gx_q11) >> 1);
+    middle->gy_q11 = (int16_t)((a->gy_q11 + b->gy_q11) >> 1);
+}
+
+int32_t relief_reach(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
+                     const yb_vertex_t *c)
+{
+    const yb_vertex_t *corner[4] = {a, b, c, a};
+    int32_t bulge = 0;
+    int longest = 0;
+    for (int i = 0; i < 3; i++) {
+        const yb_vertex_t *p = corner[i];
+        const yb_vertex_t *q = corner[i + 1];
+        longest = fix_max(longest, relief_class(q->x_q8 - p->x_q8, q->y_q8 - p->y_q8));
+        if (map->smooth)
+            bulge = fix_max(bulge, fix_abs(smooth_rise(p, q)));
+    }
+    /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
+     * levels adds at most as many units. */
+    int32_t reach = bulge + (bulge >> 1) + 16;
+    return map->detail ? reach + map->reach_q8[longest] : reach;
+}
+
+/* --- The constants of the map ----------------------------------------------------------------- */
+
+/* Slope of the smooth surface at v: the area-weighted mean over the triangles that meet there, flat
+ * ones left out. The upward normals n of triangles twice their area long are just summed: the slope
+ * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^10 quarter steps and heights
+ * within 2^17: a product is within 2^27, a normal 2^28, and a star of 510 triangles 2^37.
+ */
+static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
+{
+    int64_t sum_x = 0;
+    int64_t sum_y = 0;
+    int64_t sum_z = 0;
+    uint16_t first = first_at(map, load, v);
+    uint16_t t = first;
+    do {
+        const yb_vertex_t *a = &map->vertex[map->triangle[t][0]];
+        const yb_vertex_t *b = &map->vertex[map->triangle[t][1]];
+        const yb_vertex_t *c = &map->vertex[map->triangle[t][2]];
+        int32_t abx = (b->x_q8 - a->x_q8) >> 6;
+        int32_t aby = (b->y_q8 - a->y_q8) >> 6;
+        int32_t abz = b->z_q8 - a->z_q8;
+        int32_t acx = (c->x_q8 - a->x_q8) >> 6;
+        int32_t acy = (c->y_q8 - a->y_q8) >> 6;
+        int32_t acz = c->z_q8 - a->z_q8;
+        if (abz != 0 || acz != 0) {
+            sum_x += (int64_t)aby * acz - (int64_t)abz * acy;
+            sum_y += (int64_t)abz * acx - (int64_t)abx * acz;
+            sum_z += abx * acy - aby * acx;
+        }
+        t = turn_left(map, load, t, v);
+    } while (t != NO_TRIANGLE && t != first);
+    if (sum_z == 0)
+        return; /* flat all round: level */
+    /* Heights count 1/256 step, plan differences 1/4 step: 6 bits; with the slope's 11, times 2^5,
+     * 2^42 in all. Rounded down, like everything. */
+    int64_t gx = -sum_x * 32;
+    int64_t gy = -sum_y * 32;
+    gx = gx >= 0 ? gx / sum_z : -((sum_z - 1 - gx) / sum_z);
+    gy = gy >= 0 ? gy / sum_z : -((sum_z - 1 - gy) / sum_z);
+    const int64_t most = YB_MAX_SLOPE_Q11;
+    map->vertex[v].gx_q11 = (int16_t)(gx > most ? most : gx < -most ? -most : gx);
+    map->vertex[v].gy_q11 = (int16_t)(gy > most ? most : gy < -most ? -most : gy);
+}
+
+/* log2, in 1/2048, of the square of an edge's length in steps; from its squared half length in
+ * 1/256 steps: 4 / 2^16.
+ */
+static int32_t log2_square_q11(uint32_t half_square)
+{
+    return fix_log2_q11(half_square) - 14 * 2048;
+}
+
+/* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or INT32_MIN if no
+ * edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18, and
+ * kept with 8 more bits where it is small enough; 1020 terms.
+ */
+static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
+{
+    uint64_t sum = 0;
+    uint32_t edges = 0;
+    for (uint16_t t = 0; t < map->triangle_count; t++) {
+        for (int i = 0; i < 3; i++) {
+            uint16_t u = neighbour_of(load, t, i);
+            if (u < t)
+                continue; /* each edge once; those of the frame too */
+            edges++;
+            const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
+            const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
+            uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
+            if (rise == 0)
+                continue;
+            int32_t dx = fix_abs(b->x_q8 - a->x_q8) >> 1;
+            int32_t dy = fix_abs(b->y_q8 - a->y_q8) >> 1;
+            int32_t square = log2_square_q11((uint32_t)(dx * dx) + (uint32_t)(dy * dy));
+            int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
+            sum += term < 24 * 2048 ? fix_exp2_q11(term + 8 * 2048) : (uint64_t)fix_exp2_q11(term) << 8;
+        }
+    }
+    sum /= edges;
+    return sum == 0 ? INT32_MIN : fix_log2_q11(sum) - 8 * 2048;
+}
+
+/* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
+ * edge one step long; INT32_MIN for none.
+ */
+static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
+{
+    /* A midpoint of fractional Brownian motion strays by L^H 2^-H sqrt(1 - 2^(2H-2)). */
+    uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * 2048);
+    int32_t roughness = log2_roughness(map, load, hurst_q8);
+    if (rest == 0 || load->gain == 0 || roughness == INT32_MIN)
+        return INT32_MIN;
+    int32_t variance = roughness + fix_log2_q11(rest) - 16 * 2048 - hurst_q8 * 16;
+    return (variance >> 1) + fix_log2_q11(load->gain) - 5 * 2048;
+}
+
+/* The table of noise scales per length class, and from it how far a point can be moved in all. The
+ * children of a triangle have no edge longer than half its longest after at most two splits that
+ * move a point, each by the noise of the longest class or less: twice that, and on with the class
+ * of half the length, four classes down.
+ */
+static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
+{
+    for (int c = 0; c < YB_LENGTH_CLASSES; c++) {
+        /* The class stands for the geometric middle of its lengths: log2 (L/2)^2 = c/2 + 1/4. */
+        int32_t length = (c * 1024 + 512 - 14 * 2048) >> 1;
+        uint32_t scale = 0;
+        if (amplitude != INT32_MIN) {
+            int32_t e = amplitude + ((hurst_q8 * length) >> 8);
+            scale = fix_exp2_q11(e + NOISE_SHIFT * 2048 - HASH_LOG2_Q11);
+        }
+        map->noise[c] = (uint16_t)(scale > 65535 ? 65535 : scale);
+        uint32_t move = ((uint32_t)map->noise[c] * HASH_MEAN >> NOISE_SHIFT) + 1;
+        uint32_t reach = scale == 0 ? 0 : 2 * move + (c >= 4 ? map->reach_q8[c - 4] : 0u);
+        map->reach_q8[c] = (uint16_t)(reach > 65535 ? 65535 : reach);
+    }
+}
+
+void relief_prepare(yb_map_t *map, const yb_load_t *load)
+{
+    map->low_q8 = map->high_q8 = map->vertex[0].z_q8;
+    for (int i = 0; i < map->vertex_count; i++) {
+        map->low_q8 = fix_min(map->low_q8, map->vertex[i].z_q8);
+        map->high_q8 = fix_max(map->high_q8, map->vertex[i].z_q8);
+        find_slope(map, load, (yb_index_t)i);
+    }
+    int32_t hurst_q8 = map->hurst_q8m1 + 1;
+    fill_tables(map, log2_amplitude(map, load, hurst_q8), hurst_q8);
+}

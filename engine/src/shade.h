@@ -1,0 +1,21 @@
+/* Light and colour: 14 shades of a hue that depends on the height (colour paper). */
+#ifndef YB_SHADE_H
+#define YB_SHADE_H
+
+#include <yamabiko/yamabiko.h>
+
+/* Fills in frame's colour constants. */
+void shade_begin(yb_frame_t *frame);
+
+uint16_t shade_background(const yb_frame_t *frame);
+
+/* The pixel value of a triangle of the ground (or of the water, where all three corners are in
+ * it), from the places of its corners.
+ */
+uint16_t shade_ground(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b,
+                      const yb_vertex_t *c);
+
+/* The pixel value of the wall below the edge ab of the frame, ground to its left. */
+uint16_t shade_wall(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b);
+
+#endif

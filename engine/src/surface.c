@@ -1,0 +1,132 @@
+/* The surface by itself, without a camera: refined to an even length, or asked for one height. */
+#include "fix.h"
+#include "relief.h"
+#include "split.h"
+
+const uint8_t split_child[8][SPLIT_CHILDREN][3] = {
+    {{SPLIT_END}},
+    {{0, 3, 2}, {3, 1, 2}, {SPLIT_END}},
+    {{1, 4, 0}, {4, 2, 0}, {SPLIT_END}},
+    {{4, 3, 1}, {2, 0, 3}, {2, 3, 4}, {SPLIT_END}},
+    {{2, 5, 1}, {5, 0, 1}, {SPLIT_END}},
+    {{3, 5, 0}, {1, 2, 5}, {1, 5, 3}, {SPLIT_END}},
+    {{5, 4, 2}, {0, 1, 4}, {0, 4, 5}, {SPLIT_END}},
+    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}},
+};
+
+/* fix_length is a norm, so a child's longest edge exceeds the limit by at most half of what its
+ * parent's did: from below 2^17 that takes 17 levels.
+ */
+enum { LEVELS = 18 };
+
+typedef struct {
+    const yb_vertex_t *corner[3];
+    yb_vertex_t middle[3];
+    uint8_t pattern;
+    uint8_t child;
+} surface_level_t;
+
+/* Which edges are longer than `longest` and can be split; their midpoints. */
+static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[3], int32_t longest,
+                           yb_vertex_t middle[3])
+{
+    uint8_t pattern = 0;
+    for (int i = 0; i < 3; i++) {
+        const yb_vertex_t *a = corner[i];
+        const yb_vertex_t *b = corner[i == 2 ? 0 : i + 1];
+        int32_t dx = b->x_q8 - a->x_q8;
+        int32_t dy = b->y_q8 - a->y_q8;
+        if (fix_length(dx, dy) > longest && relief_splits(dx, dy)) {
+            relief_middle(map, a, b, &middle[i]);
+            pattern |= (uint8_t)(1 << i);
+        }
+    }
+    return pattern;
+}
+
+static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],
+                 const uint8_t child[3], const yb_vertex_t *picked[3])
+{
+    for (int i = 0; i < 3; i++)
+        picked[i] = child[i] < 3 ? corner[child[i]] : &middle[child[i] - 3];
+}
+
+void yb_map_refine(const yb_map_t *map, uint16_t triangle, uint16_t longest_q8, yb_triangle_fn fn,
+                   void *context)
+{
+    surface_level_t levels[LEVELS];
+    surface_level_t *level = levels;
+    for (int i = 0; i < 3; i++)
+        level->corner[i] = &map->vertex[map->triangle[triangle][i]];
+    for (;;) {
+        level->pattern = split_edges(map, level->corner, longest_q8, level->middle);
+        level->child = 0;
+        if (level->pattern == 0)
+            fn(context, level->corner[0], level->corner[1], level->corner[2]);
+        /* Up to the next level that has a child left, and down into it. */
+        const uint8_t *child = split_child[level->pattern][0];
+        while (level->child == SPLIT_CHILDREN || *child == SPLIT_END) {
+            if (level == levels)
+                return;
+            level--;
+            child = split_child[level->pattern][++level->child & 3];
+        }
+        pick(level->corner, level->middle, child, level[1].corner);
+        level++;
+    }
+}
+
+/* Twice the signed area of the plan triangle a, b, (x, y): below 2^33. */
+static int64_t side(const yb_vertex_t *a, const yb_vertex_t *b, int32_t x, int32_t y)
+{
+    return (int64_t)(b->x_q8 - a->x_q8) * (y - a->y_q8) -
+           (int64_t)(b->y_q8 - a->y_q8) * (x - a->x_q8);
+}
+
+static bool holds(const yb_vertex_t *const p[3], int32_t x, int32_t y)
+{
+    return side(p[0], p[1], x, y) >= 0 && side(p[1], p[2], x, y) >= 0 && side(p[2], p[0], x, y) >= 0;
+}
+
+/* Height of the plane through three points at a place inside them. Heights are below 2^19 and areas
+ * below 2^33: each product is below 2^52.
+ */
+static int32_t plane_height(const yb_vertex_t *const p[3], int32_t x, int32_t y)
+{
+    int64_t a = side(p[1], p[2], x, y);
+    int64_t b = side(p[2], p[0], x, y);
+    int64_t c = side(p[0], p[1], x, y);
+    int64_t whole = a + b + c;
+    int64_t sum = a * p[0]->z_q8 + b * p[1]->z_q8 + c * p[2]->z_q8;
+    /* Rounded down, for heights below zero too. */
+    return (int32_t)(sum >= 0 ? sum / whole : -((whole - 1 - sum) / whole));
+}
+
+int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
+{
+    int32_t x = fix_min(x_q8, map->east_q8);
+    int32_t y = fix_min(y_q8, map->north_q8);
+    yb_vertex_t corner[3];
+    const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
+    for (int t = 0; t < map->triangle_count; t++) {
+        for (int i = 0; i < 3; i++)
+            corner[i] = map->vertex[map->triangle[t][i]];
+        if (holds(p, x, y))
+            break; /* the triangles tile the frame: one does */
+    }
+    for (;;) {
+        yb_vertex_t middle[3];
+        uint8_t pattern = split_edges(map, p, YB_REFERENCE_Q8, middle);
+        if (pattern == 0)
+            return plane_height(p, x, y);
+        const yb_vertex_t *child[3];
+        for (int k = 0; k < SPLIT_CHILDREN; k++) {
+            pick(p, middle, split_child[pattern][k], child);
+            if (holds(child, x, y))
+                break;
+        }
+        yb_vertex_t next[3] = {*child[0], *child[1], *child[2]};
+        for (int i = 0; i < 3; i++)
+            corner[i] = next[i];
+    }
+}

@@ -1,0 +1,367 @@
+/* Constrained Delaunay triangulation in exact integers.
+ *
+ * Three steps, all by flips: every vertex is inserted into the Delaunay triangulation of those
+ * before it; every contour edge is forced in; what is not fixed is made Delaunay again. Nothing
+ * needs a stack or a list: legalising walks round the new vertex, and forcing an edge in removes
+ * the vertices of its channel one by one (see force_edge).
+ *
+ * The result does not depend on the order of work: where four points lie on a circle, the diagonal
+ * goes through the one with the smallest index. That is the triangulation of points lifted to the
+ * paraboloid and then lowered by infinitely small amounts, the first one most, so it is unique.
+ */
+#include "mesh.h"
+
+static void put_triangle(yb_map_t *map, yb_load_t *load, uint16_t t, yb_index_t a, yb_index_t b,
+                         yb_index_t c)
+{
+    map->triangle[t][0] = a;
+    map->triangle[t][1] = b;
+    map->triangle[t][2] = c;
+    load->star[a] = load->star[b] = load->star[c] = t;
+}
+
+/* Edge i of t looks at `entry` (a triangle and perhaps FIXED), and that triangle back at t. */
+static void link_edge(const yb_map_t *map, yb_load_t *load, uint16_t t, int i, uint16_t entry)
+{
+    load->neighbour[t][i] = entry;
+    uint16_t u = entry & NO_TRIANGLE;
+    if (u == NO_TRIANGLE)
+        return;
+    int j = corner_of(map, u, map->triangle[t][next3(i)]);
+    load->neighbour[u][j] = (uint16_t)(t | (entry & FIXED));
+}
+
+/* Replaces the common edge ab of t and its neighbour by the other diagonal dc of their quad. With
+ * t = (a b c) before, edge ab being edge i, t becomes (a d c) and the neighbour (d b c).
+ */
+static void flip(yb_map_t *map, yb_load_t *load, uint16_t t, int i)
+{
+    uint16_t u = neighbour_of(load, t, i);
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    yb_index_t c = map->triangle[t][prev3(i)];
+    int j = corner_of(map, u, b);
+    yb_index_t d = map->triangle[u][prev3(j)];
+    uint16_t bc = load->neighbour[t][next3(i)];
+    uint16_t ca = load->neighbour[t][prev3(i)];
+    uint16_t ad = load->neighbour[u][next3(j)];
+    uint16_t db = load->neighbour[u][prev3(j)];
+    put_triangle(map, load, t, a, d, c);
+    put_triangle(map, load, u, d, b, c);
+    link_edge(map, load, t, 0, ad);
+    link_edge(map, load, t, 2, ca);
+    link_edge(map, load, u, 0, db);
+    link_edge(map, load, u, 1, bc);
+    link_edge(map, load, t, 1, u);
+}
+
+/* Does d lie inside the circle through a, b, c (counter-clockwise)? Differences of quarter steps
+ * are within 2^10, squares of length 2^21, areas 2^21: each of the three terms is below 2^42.
+ */
+static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c, yb_index_t d)
+{
+    const yb_vertex_t *o = &map->vertex[d];
+    const yb_index_t corner[3] = {a, b, c};
+    int32_t x[3];
+    int32_t y[3];
+    for (int i = 0; i < 3; i++) {
+        x[i] = (map->vertex[corner[i]].x_q8 >> 6) - (o->x_q8 >> 6);
+        y[i] = (map->vertex[corner[i]].y_q8 >> 6) - (o->y_q8 >> 6);
+    }
+    int64_t sum = 0;
+    for (int i = 0; i < 3; i++) {
+        int j = next3(i);
+        int k = prev3(i);
+        sum += (int64_t)(x[i] * x[i] + y[i] * y[i]) * (x[j] * y[k] - x[k] * y[j]);
+    }
+    if (sum != 0)
+        return sum > 0;
+    yb_index_t least_kept = a < b ? a : b;
+    yb_index_t least_new = c < d ? c : d;
+    return least_new < least_kept;
+}
+
+/* Is edge i of t to be flipped? */
+static bool illegal(const yb_map_t *map, const yb_load_t *load, uint16_t t, int i)
+{
+    uint16_t entry = load->neighbour[t][i];
+    if ((entry & FIXED) != 0 || entry == NO_TRIANGLE)
+        return false;
+    const yb_index_t *v = map->triangle[t];
+    int j = corner_of(map, entry, v[next3(i)]);
+    return in_circle(map, v[i], v[next3(i)], v[prev3(i)], map->triangle[entry][prev3(j)]);
+}
+
+/* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
+ * one more triangle, whose edge is looked at next; a spoke of p is never flipped, so the walk ends
+ * when it comes to the spoke it started with.
+ */
+static void legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
+{
+    uint16_t t = first_at(map, load, p);
+    yb_index_t first_spoke = map->triangle[t][next3(corner_of(map, t, p))];
+    for (;;) {
+        int opposite = next3(corner_of(map, t, p));
+        if (illegal(map, load, t, opposite)) {
+            flip(map, load, t, opposite); /* t = (a d p): the first of the two new ones */
+            continue;
+        }
+        uint16_t left = turn_left(map, load, t, p);
+        if (left == NO_TRIANGLE || map->triangle[left][next3(corner_of(map, left, p))] == first_spoke)
+            return;
+        t = left;
+    }
+}
+
+/* Finds the triangle that holds vertex p by walking towards it from t. In a Delaunay triangulation
+ * such a walk never goes in circles. *edge: the edge p lies on, or -1.
+ */
+static uint16_t locate(const yb_map_t *map, const yb_load_t *load, uint16_t t, yb_index_t p,
+                       int *edge)
+{
+    for (;;) {
+        *edge = -1;
+        int out = -1;
+        for (int i = 0; i < 3 && out < 0; i++) {
+            int32_t side = orientation(map, map->triangle[t][i], map->triangle[t][next3(i)], p);
+            if (side < 0)
+                out = i;
+            else if (side == 0)
+                *edge = i;
+        }
+        if (out < 0)
+            return t;
+        t = neighbour_of(load, t, out); /* p is in the frame: there is one */
+    }
+}
+
+static bool same_place(const yb_map_t *map, yb_index_t a, yb_index_t b)
+{
+    return map->vertex[a].x_q8 == map->vertex[b].x_q8 && map->vertex[a].y_q8 == map->vertex[b].y_q8;
+}
+
+/* Splits t = (a b c) at p into (a b p), (b c p), (c a p); edge 0 of t is `edge`, where p may lie
+ * on it. Then ab p is flat: it is flipped away, or, on the frame, dropped.
+ */
+static void insert(yb_map_t *map, yb_load_t *load, uint16_t t, int edge, yb_index_t p)
+{
+    int i = edge < 0 ? 0 : edge;
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    yb_index_t c = map->triangle[t][prev3(i)];
+    uint16_t ab = load->neighbour[t][i];
+    uint16_t bc = load->neighbour[t][next3(i)];
+    uint16_t ca = load->neighbour[t][prev3(i)];
+    uint16_t u = map->triangle_count++;
+    put_triangle(map, load, t, b, c, p);
+    put_triangle(map, load, u, c, a, p);
+    link_edge(map, load, t, 0, bc);
+    link_edge(map, load, u, 0, ca);
+    link_edge(map, load, t, 1, u);
+    if (edge >= 0 && ab == NO_TRIANGLE) {
+        load->neighbour[t][2] = NO_TRIANGLE;
+        load->neighbour[u][1] = NO_TRIANGLE;
+        return;
+    }
+    uint16_t w = map->triangle_count++;
+    put_triangle(map, load, w, a, b, p);
+    link_edge(map, load, w, 0, ab);
+    link_edge(map, load, w, 1, t);
+    link_edge(map, load, w, 2, u);
+    if (edge >= 0)
+        flip(map, load, w, 0);
+}
+
+static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
+{
+    const yb_index_t *corner = load->corner;
+    map->triangle_count = 2;
+    put_triangle(map, load, 0, corner[0], corner[1], corner[2]);
+    put_triangle(map, load, 1, corner[0], corner[2], corner[3]);
+    load->neighbour[0][0] = load->neighbour[0][1] = NO_TRIANGLE;
+    load->neighbour[1][1] = load->neighbour[1][2] = NO_TRIANGLE;
+    link_edge(map, load, 0, 2, 1);
+    legalise(map, load, corner[0]);
+    legalise(map, load, corner[1]);
+    uint16_t t = 0;
+    for (int i = 0; i < map->vertex_count; i++) {
+        yb_index_t p = (yb_index_t)i;
+        if (p == corner[0] || p == corner[1] || p == corner[2] || p == corner[3])
+            continue;
+        int edge = -1;
+        t = locate(map, load, t, p, &edge);
+        for (int k = 0; k < 3; k++) {
+            if (same_place(map, map->triangle[t][k], p))
+                return YB_ERR_CORRUPT;
+        }
+        insert(map, load, t, edge, p);
+        legalise(map, load, p);
+        t = load->star[p];
+    }
+    return YB_OK;
+}
+
+/* Flips away all edges at v between the spokes to `from` and `to` (counter-clockwise), given that
+ * the angle between them is convex and all vertices between lie beyond the line from-to. Those
+ * form, with from and to, a polygon that always has a corner strictly bulging away from v: the edge
+ * to it can be flipped. So each round of the loop removes one.
+ */
+static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t from, yb_index_t to)
+{
+    uint16_t first = first_at(map, load, v);
+    while (map->triangle[first][next3(corner_of(map, first, v))] != from)
+        first = turn_left(map, load, first, v);
+    uint16_t t = first;
+    for (;;) {
+        int at = corner_of(map, t, v);
+        yb_index_t s = map->triangle[t][next3(at)];
+        yb_index_t e = map->triangle[t][prev3(at)];
+        if (e == to) {
+            if (t == first)
+                return;
+            t = first;
+            continue;
+        }
+        uint16_t after = turn_left(map, load, t, v);
+        yb_index_t f = map->triangle[after][prev3(corner_of(map, after, v))];
+        if (orientation(map, s, e, f) <= 0) {
+            t = after;
+            continue;
+        }
+        /* Edge e-v of t; t = (e v s) becomes (e f s), its neighbour (f v s). */
+        flip(map, load, t, prev3(at));
+        if (t == first)
+            first = after;
+        t = first;
+    }
+}
+
+/* The triangle at a whose opposite edge the segment ab leaves through, or, with *is_edge, one that
+ * has ab as an edge already. NO_TRIANGLE: ab runs through another vertex.
+ */
+static uint16_t towards(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
+                        bool *is_edge)
+{
+    uint16_t first = first_at(map, load, a);
+    uint16_t t = first;
+    do {
+        int at = corner_of(map, t, a);
+        yb_index_t s = map->triangle[t][next3(at)];
+        yb_index_t e = map->triangle[t][prev3(at)];
+        *is_edge = s == b || e == b;
+        if (*is_edge)
+            return t;
+        if (orientation(map, a, s, b) > 0 && orientation(map, a, b, e) > 0)
+            return t;
+        t = turn_left(map, load, t, a);
+    } while (t != NO_TRIANGLE && t != first);
+    return NO_TRIANGLE;
+}
+
+/* Takes one vertex off the channel of ab: walks from t (at a) along ab and removes the first vertex at
+ * which a side of the channel bulges away from ab. There is one: that farthest from ab.
+ */
+static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, uint16_t t, yb_index_t a,
+                                  yb_index_t b)
+{
+    int at = corner_of(map, t, a);
+    int edge = next3(at);
+    yb_index_t right = map->triangle[t][edge];
+    yb_index_t left = map->triangle[t][prev3(at)];
+    yb_index_t right_before = a;
+    yb_index_t left_before = a;
+    for (;;) {
+        if ((load->neighbour[t][edge] & FIXED) != 0)
+            return YB_ERR_CORRUPT; /* two contours cross */
+        uint16_t u = neighbour_of(load, t, edge);
+        int j = corner_of(map, u, left);
+        yb_index_t apex = map->triangle[u][prev3(j)];
+        int32_t side = apex == b ? 0 : orientation(map, a, b, apex);
+        if (side == 0 && apex != b)
+            return YB_ERR_CORRUPT; /* a contour runs through a point of another */
+        if (side >= 0 && orientation(map, left_before, left, apex) < 0) {
+            clear_fan(map, load, left, left_before, apex);
+            return YB_OK;
+        }
+        if (side <= 0 && orientation(map, right_before, right, apex) > 0) {
+            clear_fan(map, load, right, apex, right_before);
+            return YB_OK;
+        }
+        /* u = (left, right, apex): go on through the edge from the apex to the other side. */
+        if (side > 0) {
+            left_before = left;
+            left = apex;
+            edge = next3(j);
+        } else {
+            right_before = right;
+            right = apex;
+            edge = prev3(j);
+        }
+        t = u;
+    }
+}
+
+/* Makes ab an edge and fixes it. The triangles it crosses form a channel; each round takes one
+ * vertex off the channel's sides (those edges that it had across the channel are flipped to its
+ * neighbours), until none is left between a and b. Each vertex leaves once: it always ends.
+ */
+static yb_status_t force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b)
+{
+    for (;;) {
+        bool is_edge = false;
+        uint16_t t = towards(map, load, a, b, &is_edge);
+        if (t == NO_TRIANGLE)
+            return YB_ERR_CORRUPT;
+        if (is_edge) {
+            int i = corner_of(map, t, a);
+            if (map->triangle[t][next3(i)] != b)
+                i = prev3(i);
+            link_edge(map, load, t, i, load->neighbour[t][i] | FIXED);
+            return YB_OK;
+        }
+        if (narrow_channel(map, load, t, a, b) != YB_OK)
+            return YB_ERR_CORRUPT;
+    }
+}
+
+static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
+{
+    for (int i = 0; i < load->contour_count; i++) {
+        const yb_contour_t *contour = &load->contour[i];
+        int edges = contour->open ? contour->count - 1 : contour->count;
+        for (int k = 0; k < edges && contour->count > 1; k++) {
+            yb_index_t a = (yb_index_t)(contour->first + k);
+            yb_index_t b = (yb_index_t)(contour->first + (k + 1) % contour->count);
+            if (force_edge(map, load, a, b) != YB_OK)
+                return YB_ERR_CORRUPT;
+        }
+    }
+    return YB_OK;
+}
+
+/* Flips until no edge is illegal. Each flip lowers the lifted surface, so this ends. */
+static void make_delaunay(yb_map_t *map, yb_load_t *load)
+{
+    bool flipped = true;
+    while (flipped) {
+        flipped = false;
+        for (uint16_t t = 0; t < map->triangle_count; t++) {
+            for (int i = 0; i < 3; i++) {
+                if (illegal(map, load, t, i)) {
+                    flip(map, load, t, i);
+                    flipped = true;
+                }
+            }
+        }
+    }
+}
+
+yb_status_t mesh_triangulate(yb_map_t *map, yb_load_t *load)
+{
+    yb_status_t status = insert_all(map, load);
+    if (status == YB_OK)
+        status = force_contours(map, load);
+    if (status == YB_OK)
+        make_delaunay(map, load);
+    return status;
+}
