@@ -15,7 +15,7 @@ enum {
     DRAFTS = 3,          /* kept of all that are tried */
     FREE_LEVELS = 6,     /* drafts have 1 to so many levels when their heights are free */
     MEASURED_LEVELS = 9, /* for the fractal dimension */
-    BASE_TRIALS = 4000,  /* at effort 1 */
+    BASE_TRIALS = 8000,  /* at effort 1 */
     FEW_BYTES = 40       /* below that, corner heights cost too much to begin with */
 };
 
