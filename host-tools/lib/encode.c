@@ -26,8 +26,8 @@ enum {
 };
 
 /* Temperatures of the search, as shares of the relief's standard deviation. */
-static const double hot = 0.01;
-static const double cold = 0.0005;
+static const double hot = 0.004;
+static const double cold = 0.0001;
 /* Part of the trials spent on all drafts before the best is chosen. */
 static const double first_part = 0.3;
 
