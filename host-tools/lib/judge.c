@@ -4,6 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What a difference of rise from one sample to the next counts against one of height: enough to
+ * keep the search from hiding cliffs where few samples see them.
+ */
+static const double slope_weight = 0.5;
+
 enum {
     REFINE_Q8 = 16 * 256,
     MOST_SIDE = 256
@@ -132,7 +137,7 @@ static void sample_triangle(void *context, const yb_vertex_t *a, const yb_vertex
     }
 }
 
-double yb_judge_rmse_m(yb_judge_t *judge, const yb_paper_t *paper)
+double yb_judge_score_m(yb_judge_t *judge, const yb_paper_t *paper)
 {
     uint8_t code[YB_MAX_CODE_BYTES];
     size_t size = yb_paper_write(paper, code);
@@ -145,13 +150,20 @@ double yb_judge_rmse_m(yb_judge_t *judge, const yb_paper_t *paper)
     lay_axis(&judge->up, paper->north);
     for (uint16_t i = 0; i < judge->map.triangle_count; i++)
         yb_map_refine(&judge->map, i, REFINE_Q8, sample_triangle, judge);
-    double sum = 0;
-    int samples = judge->across.count * judge->up.count;
+    int columns = judge->across.count;
+    int samples = columns * judge->up.count;
+    for (int i = 0; i < samples; i++)
+        judge->found_m[i] -= judge->truth_m[i];
+    const float *off = judge->found_m;
+    double heights = 0;
+    double slopes = 0;
     for (int i = 0; i < samples; i++) {
-        double off = (double)(judge->found_m[i] - judge->truth_m[i]);
-        sum += off * off;
+        float east = i % columns == columns - 1 ? 0 : off[i + 1] - off[i];
+        float north = i + columns >= samples ? 0 : off[i + columns] - off[i];
+        heights += (double)(off[i] * off[i]);
+        slopes += (double)(east * east + north * north);
     }
-    return sqrt(sum / samples);
+    return sqrt((heights + slope_weight * slopes) / samples);
 }
 
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m)
@@ -159,13 +171,13 @@ void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, doubl
     double total = 0;
     int samples = judge->across.count * judge->up.count;
     for (int i = 0; i < samples; i++) {
-        double off = (double)(judge->found_m[i] - judge->truth_m[i]);
+        double off = (double)judge->found_m[i];
         total += off * off;
     }
     double until = share * total;
     int at = 0;
     for (double sum = 0; at < samples - 1; at++) {
-        double off = (double)(judge->found_m[at] - judge->truth_m[at]);
+        double off = (double)judge->found_m[at];
         sum += off * off;
         if (sum >= until)
             break;
