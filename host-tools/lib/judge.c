@@ -182,8 +182,10 @@ void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, doubl
         if (sum >= until)
             break;
     }
-    *east_m = at % judge->across.count * judge->width_m / (judge->across.count - 1);
-    *north_m = at / judge->across.count * judge->depth_m / (judge->up.count - 1);
+    int column = at % judge->across.count;
+    int row = at / judge->across.count;
+    *east_m = column * judge->width_m / (judge->across.count - 1);
+    *north_m = row * judge->depth_m / (judge->up.count - 1);
 }
 
 double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid)
