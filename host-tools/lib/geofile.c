@@ -121,7 +121,7 @@ static bool write_heights(GDALDriverH driver, const char *path, const void *what
         good = GDALRasterIO(band, GF_Write, 0, j, columns, 1, row, columns, 1, GDT_Float32, 0, 0) ==
                CE_None;
     }
-    GDALDatasetH copy = good ? GDALCreateCopy(driver, path, memory, FALSE, NULL, NULL, NULL) : NULL;
+    GDALDatasetH copy = good ? GDALCreateCopy(driver, path, memory, TRUE, NULL, NULL, NULL) : NULL;
     good = copy != NULL;
     if (copy != NULL) {
         GDALClose(copy);
