@@ -72,7 +72,7 @@ static void help(void)
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
           "\n"
-          "View (of --sheet; its size is fixed):\n",
+          "View of --sheet (--size, --format and --band do not apply):\n",
           stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"
@@ -160,6 +160,10 @@ static int check(const request_t *request)
         return cli_usage("--center and --km belong together");
     if (request->json && request->sheet != NULL && strcmp(request->sheet, "-") == 0)
         return cli_usage("--json and '--sheet -' both want the standard output");
+    if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||
+        yb_view_options_given(&request->view, YB_OPTION_FORMAT) ||
+        yb_view_options_given(&request->view, YB_OPTION_BAND))
+        return cli_usage("--size, --format and --band do not apply: the sheet has its own size");
     if (!yb_view_options_check(&request->view, &error))
         return cli_usage("%s", error.text);
     return CLI_OK;
