@@ -6,10 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <panel.h>
+
 #include "code_file.h"
 #include "numbered.h"
 #include "output.h"
-#include "panel_list.h"
 #include "picture.h"
 #include "still.h"
 #include "view_options.h"
@@ -33,7 +34,7 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
 
 typedef struct {
     const char *input, *output;
-    const yb_screen_t *panel;
+    const yb_panel_t *panel;
     long orbit;
     bool json, force, help;
     yb_view_options_t view;
@@ -81,10 +82,8 @@ static int take(request_t *request, int answer, int argc, char **argv)
         request->output = optarg;
         return CLI_OK;
     case OPTION_PANEL:
-        request->panel = yb_panel_list_screen(optarg);
-        return request->panel != NULL ? CLI_OK
-                                      : cli_usage("there is no panel '%s'; there is: %s", optarg,
-                                                  yb_panel_list_name(0));
+        request->panel = yb_panel_find(optarg);
+        return request->panel != NULL ? CLI_OK : cli_usage("there is no panel '%s'", optarg);
     case OPTION_ORBIT:
         if (!cli_integer(optarg, 1, 3600, &request->orbit))
             return cli_usage("--orbit: '%s' is not a whole number from 1 to 3600", optarg);
@@ -123,7 +122,7 @@ static int check(request_t *request)
         request->output[1] == '\0')
         return cli_usage("--json and '-o -' both want the standard output");
     if (request->panel != NULL)
-        request->view.screen = *request->panel;
+        request->view.screen = request->panel->screen;
     if (!yb_view_options_check(view, &error))
         return cli_usage("%s", error.text);
     return CLI_OK;
