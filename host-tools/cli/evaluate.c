@@ -25,7 +25,8 @@ enum {
     OPTION_HELP
 };
 enum {
-    LATTICE = 256
+    LATTICE = 256,
+    DEFAULT_KM = 20
 };
 
 static const struct option options[] = {{"window", required_argument, NULL, OPTION_WINDOW},
@@ -64,7 +65,8 @@ static void help(void)
           "  N M F   points, contours and the bits of the 1985 paper's code, 12 N + 20 M + 8\n"
           "\n"
           "  --window XMIN YMIN XMAX YMAX   part of the reference, in its own coordinates\n"
-          "  --center LON LAT --km S        a square of S km round a place on earth (WGS 84)\n"
+          "  --center LON LAT               a square round a place on earth (WGS 84) ...\n"
+          "  --km S              ... of so many kilometres a side (default 20)\n"
           "  --cell M            metres per cell of a reference that does not say (default 30)\n"
           "  --json              print it all as JSON\n"
           "  --sheet FILE        a page with contours, polygons, both reliefs and these figures:\n"
@@ -111,7 +113,6 @@ static int take_window(request_t *request, int answer, int argc, char **argv)
     case OPTION_KM:
         if (!cli_number(optarg, &request->km) || request->km <= 0)
             return cli_usage("--km: '%s' is not a length above 0", optarg);
-        request->window.side_m = request->km * 1000;
         return CLI_OK;
     default:
         if (!cli_number(optarg, &request->window.cell_m) || request->window.cell_m <= 0)
@@ -151,13 +152,14 @@ static int take(request_t *request, int answer, int argc, char **argv)
     }
 }
 
-static int check(const request_t *request)
+static int check(request_t *request)
 {
     yb_error_t error;
+    request->window.side_m = 1000 * (request->km > 0 ? request->km : DEFAULT_KM);
     if (request->input == NULL)
         return cli_usage("name one code and one raster: MAP.yb REFERENCE");
-    if ((request->window.kind == YB_WINDOW_CENTER) != (request->km > 0))
-        return cli_usage("--center and --km belong together");
+    if (request->km > 0 && request->window.kind != YB_WINDOW_CENTER)
+        return cli_usage("--km needs --center");
     if (request->json && request->sheet != NULL && strcmp(request->sheet, "-") == 0)
         return cli_usage("--json and '--sheet -' both want the standard output");
     if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* How much two frames may differ and still be one: a lattice has at most 255 steps, and a window
  * named by the user is cut at whole cells on both sides.
@@ -26,29 +27,35 @@ static bool sizes_fit(const yb_comparison_t *comparison, const yb_grid_t *refere
     return true;
 }
 
+/* Heights of the map at the real relief's cells, on the nearest 1/256 step. */
+static float *map_heights(const yb_comparison_t *comparison, const yb_map_t *map)
+{
+    const uint32_t columns = comparison->columns, rows = comparison->rows;
+    float *z_m = malloc((size_t)columns * rows * sizeof(*z_m));
+    for (uint32_t j = 0; z_m != NULL && j < rows; j++) {
+        const uint16_t y = (uint16_t)lround((double)map->north_q8 * j / (rows - 1));
+        for (uint32_t i = 0; i < columns; i++) {
+            const uint16_t x = (uint16_t)lround((double)map->east_q8 * i / (columns - 1));
+            z_m[(size_t)j * columns + i] = (float)yb_map_z_m(map, yb_map_height(map, x, y));
+        }
+    }
+    return z_m;
+}
+
 static bool sample_heights(yb_comparison_t *comparison, const yb_code_file_t *file,
                            const yb_grid_t *reference)
 {
-    const size_t cells = (size_t)comparison->columns * comparison->rows;
-    comparison->reference_m = malloc(cells * sizeof(float));
+    const size_t columns = comparison->columns, rows = comparison->rows;
+    comparison->reference_m = malloc(columns * rows * sizeof(float));
     if (comparison->reference_m == NULL)
         return false;
-    const double wide = yb_grid_width_m(reference), deep = yb_grid_depth_m(reference);
-    for (uint32_t j = 0; j < comparison->rows; j++) {
-        for (uint32_t i = 0; i < comparison->columns; i++) {
-            const double x = wide * i / (comparison->columns - 1);
-            const double y = deep * j / (comparison->rows - 1);
-            comparison->reference_m[(size_t)j * comparison->columns + i] =
-                (float)yb_grid_height(reference, x, y);
-        }
-    }
-    const uint32_t longer =
-        comparison->columns > comparison->rows ? comparison->columns : comparison->rows;
-    const yb_raster_t raster = yb_raster_on_map(&file->map, longer);
+    for (size_t j = 0; j < rows; j++)
+        memcpy(comparison->reference_m + j * columns,
+               reference->height_m + (rows - 1 - j) * columns, columns * sizeof(float));
     yb_map_t smooth = file->map;
     smooth.detail = false;
-    comparison->smooth_m = yb_raster_heights(&smooth, &raster);
-    comparison->detail_m = yb_raster_heights(&file->map, &raster);
+    comparison->smooth_m = map_heights(comparison, &smooth);
+    comparison->detail_m = map_heights(comparison, &file->map);
     return comparison->smooth_m != NULL && comparison->detail_m != NULL;
 }
 
@@ -98,18 +105,15 @@ bool yb_comparison_make(yb_comparison_t *comparison, const yb_code_file_t *file,
                         const yb_grid_t *reference, yb_error_t *error)
 {
     const yb_map_t *map = &file->map;
-    const double cell_m = yb_map_cell_m(map);
-    /* Computed as the meshes' coordinates are: ends of open lines lie exactly on this frame. */
-    *comparison = (yb_comparison_t){.columns = map->east_q8 / 256u + 1,
-                                    .rows = map->north_q8 / 256u + 1,
-                                    .cell_m = cell_m,
-                                    .east_m = map->east_q8 * (cell_m / 256),
-                                    .north_m = map->north_q8 * (cell_m / 256)};
+    *comparison = (yb_comparison_t){.columns = (uint32_t)reference->columns,
+                                    .rows = (uint32_t)reference->rows,
+                                    .east_m = yb_map_east_m(map),
+                                    .north_m = yb_map_north_m(map)};
     if (!sizes_fit(comparison, reference, error))
         return false;
     if (sample_heights(comparison, file, reference) &&
         yb_mesh_from_lattice(&comparison->reference, comparison->reference_m, comparison->columns,
-                             comparison->rows, cell_m) &&
+                             comparison->rows, comparison->east_m, comparison->north_m) &&
         yb_mesh_from_map(&comparison->surface, map, YB_REFERENCE_Q8) &&
         take_polygons(comparison, file) &&
         cut_mesh(&comparison->original, &comparison->reference, &comparison->coded) &&

@@ -1,8 +1,6 @@
-/* A code beside the real relief it stands for: both as heights on the map's lattice, as meshes and
- * as isolines at the coded heights. What fidelity is measured on and what the result sheet shows.
- *
- * The real relief is laid on the map's frame, corner on corner, and read between its cells where
- * they do not coincide with the lattice.
+/* A code beside the real relief it stands for: both as heights at the real relief's cells, as
+ * meshes and as isolines at the coded heights. What fidelity is measured on and what the result
+ * sheet shows. The real relief is laid on the map's frame, corner on corner.
  */
 #ifndef YB_COMPARISON_H
 #define YB_COMPARISON_H
@@ -13,13 +11,12 @@
 #include "surface.h"
 
 typedef struct {
-    uint32_t columns, rows; /* lattice points; row 0 of the heights is in the south */
-    double cell_m;
-    double east_m, north_m; /* size of the frame */
+    uint32_t columns, rows; /* the real relief's cells; row 0 of the heights is in the south */
+    double east_m, north_m; /* size of the frame, which runs through the outermost cells' centres */
     float *reference_m;     /* the real relief */
     float *smooth_m;        /* the reference surface without detail */
     float *detail_m;        /* and with it */
-    yb_mesh_t reference;    /* the real relief's lattice */
+    yb_mesh_t reference;    /* the real relief */
     yb_mesh_t surface;      /* the reference surface with detail */
     yb_isolines_t coded;    /* the code's polygons, spot heights left out */
     yb_isolines_t original; /* of the real relief, at the coded heights */

@@ -20,7 +20,7 @@ static yb_mesh_t mesh_of(height_fn height)
         for (int i = 0; i < SIDE; i++)
             z_m[j * SIDE + i] = (float)height(i, j);
     }
-    assert_true(yb_mesh_from_lattice(&mesh, z_m, SIDE, SIDE, 1));
+    assert_true(yb_mesh_from_lattice(&mesh, z_m, SIDE, SIDE, SIDE - 1, SIDE - 1));
     return mesh;
 }
 

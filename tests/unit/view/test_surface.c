@@ -88,10 +88,10 @@ static void lattices_end_on_the_same_frame(void **state)
 {
     (void)state;
     yb_code_file_t *file = code_slope();
-    const double cell_m = yb_map_cell_m(&file->map);
+    const double east_m = yb_map_east_m(&file->map);
     float *flat = calloc(101 * 61, sizeof(*flat));
     yb_mesh_t lattice, base;
-    assert_true(yb_mesh_from_lattice(&lattice, flat, 101, 61, cell_m));
+    assert_true(yb_mesh_from_lattice(&lattice, flat, 101, 61, east_m, yb_map_north_m(&file->map)));
     assert_true(yb_mesh_from_map(&base, &file->map, UINT16_MAX));
     assert_int_equal(lattice.triangle_count, 2 * 100 * 60);
     assert_true(fabs(plan_area(&lattice) - plan_area(&base)) < 1e-6);
