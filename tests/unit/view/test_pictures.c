@@ -1,7 +1,6 @@
 /* Frames, their hash, and the pictures made of them. */
 #include "codes.h"
 #include "numbered.h"
-#include "panel_list.h"
 #include "picture.h"
 #include "relief_picture.h"
 #include "still.h"
@@ -203,17 +202,6 @@ static void patterns_have_one_number(void **state)
     }
 }
 
-static void panels_are_known_by_name(void **state)
-{
-    (void)state;
-    const yb_screen_t *screen = yb_panel_list_screen("ssd0323");
-    assert_non_null(screen);
-    assert_int_equal(screen->width, 128);
-    assert_int_equal(screen->height, 64);
-    assert_int_equal(screen->format, YB_GREY4);
-    assert_null(yb_panel_list_screen("ssd"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -223,7 +211,6 @@ int main(void)
         cmocka_unit_test(json_has_every_field),
         cmocka_unit_test(from_the_south_east_is_on_the_right),
         cmocka_unit_test(patterns_have_one_number),
-        cmocka_unit_test(panels_are_known_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
