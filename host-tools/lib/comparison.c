@@ -101,8 +101,47 @@ static bool cut_mesh(yb_isolines_t *lines, const yb_mesh_t *mesh, const yb_isoli
     return true;
 }
 
+/* One given line, scaled to the map's frame, as an isoline of a coded height. */
+static bool take_line(yb_isoline_t *original, const yb_comparison_t *comparison,
+                      const yb_lines_t *lines, const yb_line_t *line, double height_m)
+{
+    const size_t count = (size_t)line->count;
+    *original = (yb_isoline_t){.count = count,
+                               .closed = line->closed,
+                               .height_m = height_m,
+                               .point = malloc(count * sizeof(yb_point2_t))};
+    for (size_t i = 0; original->point != NULL && i < count; i++)
+        original->point[i] =
+            (yb_point2_t){line->place[i].x_m / lines->width_m * comparison->east_m,
+                          line->place[i].y_m / lines->depth_m * comparison->north_m};
+    return original->point != NULL;
+}
+
+/* Of every coded height the given lines that lie nearer to it than what the code can tell apart. */
+static bool take_lines(yb_comparison_t *comparison, const yb_lines_t *lines, const yb_map_t *map)
+{
+    const double near_m = yb_unit_64th_m(map->unit) / 128.0 + yb_map_cell_m(map) / 256;
+    const size_t most = comparison->coded.count * (size_t)lines->count;
+    yb_isolines_t *original = &comparison->original;
+    original->line = calloc(most + 1, sizeof(*original->line));
+    bool good = original->line != NULL;
+    for (size_t i = 0; good && i < comparison->coded.count; i++) {
+        const double height_m = comparison->coded.line[i].height_m;
+        if (yb_isolines_at(original, height_m).count != 0)
+            continue;
+        for (int k = 0; good && k < lines->count; k++) {
+            const yb_line_t *line = &lines->line[k];
+            if (line->count < 2 || fabs(line->height_m - height_m) > near_m)
+                continue;
+            good = take_line(&original->line[original->count], comparison, lines, line, height_m);
+            original->count += good;
+        }
+    }
+    return good;
+}
+
 bool yb_comparison_make(yb_comparison_t *comparison, const yb_code_file_t *file,
-                        const yb_grid_t *reference, yb_error_t *error)
+                        const yb_grid_t *reference, const yb_lines_t *lines, yb_error_t *error)
 {
     const yb_map_t *map = &file->map;
     *comparison = (yb_comparison_t){.columns = (uint32_t)reference->columns,
@@ -116,7 +155,9 @@ bool yb_comparison_make(yb_comparison_t *comparison, const yb_code_file_t *file,
                              comparison->rows, comparison->east_m, comparison->north_m) &&
         yb_mesh_from_map(&comparison->surface, map, YB_REFERENCE_Q8) &&
         take_polygons(comparison, file) &&
-        cut_mesh(&comparison->original, &comparison->reference, &comparison->coded) &&
+        (lines != NULL
+             ? take_lines(comparison, lines, map)
+             : cut_mesh(&comparison->original, &comparison->reference, &comparison->coded)) &&
         cut_mesh(&comparison->reproduced, &comparison->surface, &comparison->coded))
         return true;
     yb_comparison_free(comparison);

@@ -6,6 +6,7 @@
 #define YB_COMPARISON_H
 
 #include "code_file.h"
+#include "contour_lines.h"
 #include "grid.h"
 #include "isolines.h"
 #include "surface.h"
@@ -23,11 +24,14 @@ typedef struct {
     yb_isolines_t reproduced;
 } yb_comparison_t;
 
-/* False with a sentence if the real relief's frame has another size than the map's (by more than
- * one part in fifty, or in shape if it does not say how large its cells are), or memory is short.
+/* The original lines are the isolines of the reference's grid, or `lines` if these are what it was
+ * made from: those within half a unit of height of a coded one. NULL: a real relief.
+ *
+ * False with a sentence if the reference's frame has another size than the map's (by more than one
+ * part in fifty, or in shape if it does not say how large its cells are), or memory is short.
  */
 bool yb_comparison_make(yb_comparison_t *comparison, const yb_code_file_t *file,
-                        const yb_grid_t *reference, yb_error_t *error);
+                        const yb_grid_t *reference, const yb_lines_t *lines, yb_error_t *error);
 
 void yb_comparison_free(yb_comparison_t *comparison);
 

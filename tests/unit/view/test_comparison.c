@@ -11,7 +11,8 @@
 /* The map's own reference surface as if it had been read from a file, `lift_m` too high. */
 static yb_grid_t *own_grid(const yb_map_t *map, float lift_m)
 {
-    const uint32_t longer = (map->east_q8 > map->north_q8 ? map->east_q8 : map->north_q8) / 256 + 1;
+    const uint32_t longer =
+        (map->east_q8 > map->north_q8 ? map->east_q8 : map->north_q8) / 256u + 1;
     const yb_raster_t raster = yb_raster_on_map(map, longer);
     float *z_m = yb_raster_heights(map, &raster);
     yb_grid_t *grid = yb_grid_new((int)raster.columns, (int)raster.rows, raster.cell_m);
@@ -32,7 +33,7 @@ static void measure(yb_code_file_t *file, const yb_grid_t *grid, yb_comparison_t
                     yb_fidelity_t *fidelity)
 {
     yb_error_t error = {""};
-    if (!yb_comparison_make(comparison, file, grid, &error))
+    if (!yb_comparison_make(comparison, file, grid, NULL, &error))
         fail_msg("%s", error.text);
     assert_true(yb_fidelity_measure(fidelity, file, comparison));
 }
@@ -89,6 +90,35 @@ static void a_lift_is_measured(void **state)
     yb_code_file_free(file);
 }
 
+/* Given lines: the code's own polygons, in a frame of another scale; and one of another height. */
+static void given_lines_are_the_originals(void **state)
+{
+    static const yb_place_t outer[] = {{28, 28},   {128, 20},  {228, 28}, {232, 128},
+                                       {228, 228}, {128, 236}, {28, 228}, {20, 128}};
+    static const yb_place_t inner[] = {{104, 104}, {152, 104}, {152, 152}, {104, 152}};
+    (void)state;
+    yb_code_file_t *file = code_hill();
+    yb_grid_t *grid = own_grid(&file->map, 0);
+    yb_lines_t *lines = yb_lines_new(255, 255);
+    yb_comparison_t comparison;
+    yb_fidelity_t fidelity;
+    yb_error_t error = {""};
+    assert_true(yb_lines_add(lines, 200, true, outer, 8));
+    assert_true(yb_lines_add(lines, 650, true, inner, 4));
+    assert_true(yb_comparison_make(&comparison, file, grid, lines, &error));
+    assert_true(yb_fidelity_measure(&fidelity, file, &comparison));
+    assert_int_equal(comparison.original.count, 1);
+    assert_true(fabs(comparison.original.line[0].point[0].x - 28 * 30) < 1e-6);
+    assert_true(fidelity.contour[0].similarity.k > 0.7);
+    assert_true(fidelity.contour[1].similarity.k == 0);
+    assert_true(fidelity.contour[1].similarity.original == YB_NO_LINE);
+    yb_fidelity_free(&fidelity);
+    yb_comparison_free(&comparison);
+    yb_lines_free(lines);
+    yb_grid_free(grid);
+    yb_code_file_free(file);
+}
+
 static void another_frame_is_refused(void **state)
 {
     (void)state;
@@ -96,14 +126,14 @@ static void another_frame_is_refused(void **state)
     yb_comparison_t comparison;
     yb_error_t error = {""};
     yb_grid_t *wide = yb_grid_new(256, 200, 30);
-    assert_false(yb_comparison_make(&comparison, file, wide, &error));
+    assert_false(yb_comparison_make(&comparison, file, wide, NULL, &error));
     assert_non_null(strstr(error.text, "--window"));
     yb_grid_t *large = yb_grid_new(256, 256, 35);
     large->placed = true;
-    assert_false(yb_comparison_make(&comparison, file, large, &error));
+    assert_false(yb_comparison_make(&comparison, file, large, NULL, &error));
     /* A raster that does not say where it lies may be larger than it claims. */
     large->placed = false;
-    assert_true(yb_comparison_make(&comparison, file, large, &error));
+    assert_true(yb_comparison_make(&comparison, file, large, NULL, &error));
     yb_comparison_free(&comparison);
     yb_grid_free(wide);
     yb_grid_free(large);
@@ -138,6 +168,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_map_is_faithful_to_itself),
         cmocka_unit_test(a_lift_is_measured),
+        cmocka_unit_test(given_lines_are_the_originals),
         cmocka_unit_test(another_frame_is_refused),
         cmocka_unit_test(the_sheet_is_drawn),
     };

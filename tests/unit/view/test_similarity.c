@@ -170,6 +170,30 @@ static void open_lines_are_closed_along_the_frame(void **state)
     assert_near(similarity.length, 100);
 }
 
+/* A circle that only just touches the frame is an open line; K hardly knows. */
+static void touching_the_frame_costs_little(void **state)
+{
+    (void)state;
+    shape_t round, open;
+    circle(&round, 30.2, 50, 30, false);
+    circle(&open, 0, 0, 1, false);
+    open.line.closed = false;
+    open.line.count = 0;
+    for (int i = 0; i < MOST_POINTS; i++) {
+        const double angle = 2 * acos(-1.0) * i / MOST_POINTS - acos(-1.0);
+        const yb_point2_t point = {29.8 + 30 * cos(angle), 50 + 30 * sin(angle)};
+        if (point.x > 0)
+            open.point[open.line.count++] = point;
+    }
+    open.point[0].x = 0;
+    open.point[open.line.count - 1].x = 0;
+    const yb_similarity_t similarity = measure(&round, one(&round), one(&open));
+    assert_true(similarity.area > 0.97);
+    assert_true(similarity.distance > 0.95);
+    assert_true(similarity.curvature > 0.9);
+    assert_true(measure(&round, one(&open), one(&round)).k > 0.9);
+}
+
 static void the_largest_overlap_is_chosen(void **state)
 {
     (void)state;
@@ -204,6 +228,7 @@ int main(void)
         cmocka_unit_test(dents_cost_curvature),
         cmocka_unit_test(a_missing_line_has_k_0),
         cmocka_unit_test(open_lines_are_closed_along_the_frame),
+        cmocka_unit_test(touching_the_frame_costs_little),
         cmocka_unit_test(the_largest_overlap_is_chosen),
         cmocka_unit_test(lengths_are_the_weights),
     };
