@@ -1,0 +1,65 @@
+/* The viewer: one map, drawn from a standard orbit on a 128 x 64 screen of 16 greys.
+ *
+ * Portable C without an operating system: the firmware of every board, the simulator and the tests
+ * on the PC compile this very file, so that a picture can be compared by its hash. No globals;
+ * the caller places one yb_viewer_t (sizeof: about 15 KB with 255 vertices).
+ *
+ *     static yb_viewer_t viewer;
+ *     if (yb_viewer_load(&viewer, code, sizeof code) == YB_OK)
+ *         hash = yb_viewer_draw(&viewer, YB_DEGREES(45), send_band, &panel);
+ */
+#ifndef YB_VIEWER_H
+#define YB_VIEWER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "yamabiko/yamabiko.h"
+
+#define YB_VIEWER_WIDTH 128
+#define YB_VIEWER_HEIGHT 64
+#define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
+/* Rows drawn at once; a divisor of the height. More rows are faster and cost 320 bytes each. */
+#ifndef YB_VIEWER_BAND_ROWS
+#define YB_VIEWER_BAND_ROWS 8
+#endif
+#if YB_VIEWER_BAND_ROWS < 1 || YB_VIEWER_HEIGHT % YB_VIEWER_BAND_ROWS != 0
+#error "YB_VIEWER_BAND_ROWS: a divisor of 64"
+#endif
+
+/* From one frame of a turn to the next: 256 frames go round the mountain. */
+#define YB_VIEWER_STEP_BAM 256
+
+/* The standard orbit: degrees above the horizon, and map widths from the centre, 8 fractional
+ * bits (1.2 widths).
+ */
+#define YB_VIEWER_ELEVATION 30
+#define YB_VIEWER_DISTANCE_Q8 307
+
+typedef struct {
+    yb_map_t map;
+    union {
+        yb_load_t load;
+        yb_frame_t frame;
+    } work;
+    uint16_t depth[YB_VIEWER_WIDTH * YB_VIEWER_BAND_ROWS];
+    uint8_t pixels[YB_VIEWER_PITCH * YB_VIEWER_BAND_ROWS];
+} yb_viewer_t;
+
+/* Takes the finished rows y to y + YB_VIEWER_BAND_ROWS - 1, YB_VIEWER_PITCH bytes each; `pixels`
+ * is valid for the call.
+ */
+typedef void (*yb_viewer_band_fn)(void *context, uint16_t y, const uint8_t *pixels);
+
+/* Loads a code of at most `room` bytes. What follows the code's last byte is not looked at, so a
+ * code may lie at the start of a larger piece of flash. After an error there is no map to draw.
+ */
+YB_MUST_CHECK yb_status_t yb_viewer_load(yb_viewer_t *viewer, const uint8_t *code, size_t room);
+
+/* Draws one frame of the loaded map from top to bottom and answers its hash: FNV-1a, 32 bits, over
+ * its pixel bytes. `band` may be NULL.
+ */
+uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_band_fn band,
+                        void *context);
+
+#endif

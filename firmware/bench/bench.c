@@ -1,0 +1,209 @@
+/* Runs the engine on a board so that instructions and stack can be counted from outside.
+ *
+ * The code to measure lies in the map slot. The console tells, line by line, what is being done:
+ *
+ *     size NAME BYTES        a struct of the engine, or working memory
+ *     region NAME            instructions between yb_mark_begin and yb_mark_end are this NAME's
+ *     stack NAME BYTES       the deepest the stack has been
+ *     error TEXT             the code was refused
+ *     done
+ *
+ * and the program then ends the emulator by semihosting. tests/budget reads this.
+ */
+#include "board.h"
+#include "standard_views.h"
+#include "yamabiko/yamabiko.h"
+
+/* Bytes for a band's depth and pixels: the largest band measured is the largest that fits. */
+#ifndef BENCH_BAND_BYTES
+#error "BENCH_BAND_BYTES: the board's CMake file gives it"
+#endif
+
+#define PAINT 0xA5C35A3Cu
+/* What a call may push between asking for the frame address and painting. */
+#define PAINT_MARGIN_WORDS 16
+
+void yb_mark_begin(void);
+void yb_mark_end(void);
+
+static yb_map_t map;
+static union {
+    yb_load_t load;
+    yb_frame_t frame;
+} work;
+static uint32_t band_memory[BENCH_BAND_BYTES / 4];
+
+/* The two texts differ, so that the compiler cannot make one function of both. */
+__attribute__((noinline)) void yb_mark_begin(void)
+{
+    __asm volatile("@ a region begins" ::: "memory");
+}
+
+__attribute__((noinline)) void yb_mark_end(void)
+{
+    __asm volatile("@ a region ends" ::: "memory");
+}
+
+static void say(const char *text)
+{
+    while (*text != '\0')
+        yb_board_write(NULL, *text++);
+}
+
+static void say_number(uint32_t number)
+{
+    char digits[11];
+    size_t at = sizeof digits - 1;
+    digits[at] = '\0';
+    do {
+        digits[--at] = (char)('0' + number % 10u);
+        number /= 10u;
+    } while (number > 0);
+    say(&digits[at]);
+}
+
+/* WORD NAME NUMBER; the name comes in two parts for those that are made of two. */
+static void say_line(const char *word, const char *name, const char *rest, uint32_t number)
+{
+    say(word);
+    say(" ");
+    say(name);
+    say(rest);
+    say(" ");
+    say_number(number);
+    say("\r\n");
+}
+
+/* --- The stack -------------------------------------------------------------------------------- */
+
+static uint32_t *painted_to;
+
+__attribute__((noinline)) static void paint_stack(void)
+{
+    painted_to = (uint32_t *)__builtin_frame_address(0) - PAINT_MARGIN_WORDS;
+    for (volatile uint32_t *at = yb_stack_limit; at < painted_to; at++)
+        *at = PAINT;
+}
+
+/* Bytes below the caller that were used since paint_stack. */
+static uint32_t stack_used(void)
+{
+    const volatile uint32_t *at = yb_stack_limit;
+    while (at < painted_to && *at == PAINT)
+        at++;
+    return (uint32_t)(painted_to - at) * 4u + PAINT_MARGIN_WORDS * 4u;
+}
+
+/* --- What is measured ------------------------------------------------------------------------- */
+
+static yb_view_t views[YB_STANDARD_VIEWS];
+
+typedef struct {
+    const char *name;
+    yb_screen_t screen;
+    uint16_t rows;
+} setting_t;
+
+static const setting_t settings[] = {
+    {"128x64-rows8", {128, 64, YB_GREY4}, 8},        {"128x64-rows1", {128, 64, YB_GREY4}, 1},
+    {"128x64-rows4", {128, 64, YB_GREY4}, 4},        {"128x64-rows16", {128, 64, YB_GREY4}, 16},
+    {"128x64-rows64", {128, 64, YB_GREY4}, 64},      {"320x240-rows8", {320, 240, YB_RGB565}, 8},
+    {"320x240-rows12", {320, 240, YB_RGB565}, 12},   {"320x240-rows16", {320, 240, YB_RGB565}, 16},
+    {"320x240-rows240", {320, 240, YB_RGB565}, 240},
+};
+
+static uint32_t band_bytes(const setting_t *setting)
+{
+    return setting->rows *
+           (setting->screen.width * 2u + (uint32_t)yb_screen_pitch(&setting->screen));
+}
+
+static void draw(const setting_t *setting, const yb_view_t *view)
+{
+    yb_band_t band = {.rows = setting->rows,
+                      .depth = (uint16_t *)(void *)band_memory,
+                      .pitch = yb_screen_pitch(&setting->screen)};
+    band.pixels = (uint8_t *)&band.depth[setting->screen.width * setting->rows];
+    yb_frame_begin(&work.frame, &map, view, &setting->screen);
+    for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + setting->rows))
+        yb_frame_band(&work.frame, &band);
+}
+
+static void measure_frame(const setting_t *setting, int which)
+{
+    say("region frame ");
+    say(setting->name);
+    say(" ");
+    say(yb_standard_view_name(which));
+    say("\r\n");
+    yb_mark_begin();
+    draw(setting, &views[which]);
+    yb_mark_end();
+}
+
+static void measure_frames(const setting_t *setting)
+{
+    say_line("size", "band-", setting->name, band_bytes(setting));
+    paint_stack();
+    for (int which = 0; which < YB_STANDARD_VIEWS; which++)
+        measure_frame(setting, which);
+    say_line("stack", "frame-", setting->name, stack_used());
+}
+
+static bool measure_load(void)
+{
+    say("region load\r\n");
+    paint_stack();
+    yb_mark_begin();
+    yb_map_begin(&map, &work.load);
+    yb_status_t status = YB_MORE;
+    for (size_t i = 0; i < YB_SLOT_BYTES && status == YB_MORE; i++)
+        status = yb_map_feed(&map, &work.load, &yb_slot[i], 1);
+    yb_mark_end();
+    say_line("stack", "load", "", stack_used());
+    if (status != YB_OK) {
+        say("error ");
+        say(yb_status_text(status));
+        say("\r\n");
+    }
+    return status == YB_OK;
+}
+
+static void measure_all(void)
+{
+    say_line("size", "yb_map_t", "", sizeof(yb_map_t));
+    say_line("size", "yb_load_t", "", sizeof(yb_load_t));
+    say_line("size", "yb_frame_t", "", sizeof(yb_frame_t));
+    /* What the markers themselves cost. */
+    say("region nothing\r\n");
+    yb_mark_begin();
+    yb_mark_end();
+    if (!measure_load())
+        return;
+    say_line("size", "vertices", "", map.vertex_count);
+    for (int which = 0; which < YB_STANDARD_VIEWS; which++) {
+        yb_view_init(&views[which], &map);
+        yb_standard_view_set(&views[which], &map, (yb_standard_view_t)which);
+    }
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
+        if (band_bytes(&settings[i]) <= BENCH_BAND_BYTES)
+            measure_frames(&settings[i]);
+    }
+}
+
+/* SYS_EXIT with ADP_Stopped_ApplicationExit: the emulator ends with status 0. */
+static void leave(void)
+{
+    register uint32_t operation __asm("r0") = 0x18;
+    register uint32_t reason __asm("r1") = 0x20026;
+    __asm volatile("bkpt 0xAB" : "+r"(operation) : "r"(reason) : "memory");
+}
+
+int main(void)
+{
+    yb_board_init();
+    measure_all();
+    say("done\r\n");
+    leave();
+    return 0;
+}

@@ -1,0 +1,32 @@
+/* The handheld: the mountain turns on the OLED, the console can hold it still. */
+#include "board.h"
+#include "oled.h"
+#include "turntable.h"
+
+static yb_turntable_t table;
+
+static void show_band(void *context, uint16_t y, const uint8_t *pixels)
+{
+    (void)context;
+    /* The bus never fails, and the band lies on the panel. */
+    (void)yb_panel_write_rows(&yb_panel_ssd0323, &yb_oled_bus, y, YB_VIEWER_BAND_ROWS, pixels);
+}
+
+int main(void)
+{
+    yb_board_init();
+    yb_oled_start();
+    (void)yb_panel_ssd0323.init(&yb_oled_bus);
+
+    const yb_turntable_port_t port = {.board = yb_board_name,
+                                      .read = yb_board_read,
+                                      .write = yb_board_write,
+                                      .band = show_band,
+                                      .slot = yb_slot,
+                                      .slot_bytes = YB_SLOT_BYTES,
+                                      .built_in = yb_built_in_map,
+                                      .built_in_bytes = yb_built_in_map_bytes};
+    yb_turntable_begin(&table, &port);
+    for (;;)
+        yb_turntable_step(&table);
+}

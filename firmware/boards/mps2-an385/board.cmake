@@ -1,0 +1,2 @@
+# Enough RAM for a full-height band of 320 x 240 in 16-bit colours.
+yb_bench(307200)

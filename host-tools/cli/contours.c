@@ -1,0 +1,140 @@
+#include "cli.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "code_file.h"
+#include "geofile.h"
+#include "isolines.h"
+#include "output.h"
+#include "surface.h"
+
+enum {
+    OPTION_INTERVAL = 256,
+    OPTION_BASE,
+    OPTION_NO_DETAIL,
+    OPTION_FORCE,
+    OPTION_HELP
+};
+enum {
+    MOST_HEIGHTS = 10000
+};
+
+static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                        {"interval", required_argument, NULL, OPTION_INTERVAL},
+                                        {"base", required_argument, NULL, OPTION_BASE},
+                                        {"no-detail", no_argument, NULL, OPTION_NO_DETAIL},
+                                        {"force", no_argument, NULL, OPTION_FORCE},
+                                        {"help", no_argument, NULL, OPTION_HELP},
+                                        {0}};
+
+typedef struct {
+    const char *input, *output;
+    double interval_m, base_m;
+    bool smooth, force;
+} request_t;
+
+static int help(void)
+{
+    fputs("Usage: yamabiko contours MAP.yb -o OUT.geojson --interval M [OPTION ...]\n"
+          "\n"
+          "Writes contour lines of a map's reference surface: GeoJSON, or any format of OGR that\n"
+          "the file's ending names and that is a single file. Each line has its height in the\n"
+          "field `elevation`; it is closed or ends on the map's frame, and has the higher ground\n"
+          "on its left. Coordinates are metres from the frame's south-west corner.\n"
+          "\n"
+          "  -o, --output FILE   the lines; - is the standard output\n"
+          "  --interval M        height from one contour to the next, in metres\n"
+          "  --base M            a height that has a contour (default 0, the datum)\n"
+          "  --no-detail         of the smooth surface, without fractal detail\n"
+          "  --force             overwrite what exists\n"
+          "  --help              this text\n"
+          "\n"
+          "Example:\n"
+          "  yamabiko contours fuji.yb -o fuji.geojson --interval 100\n",
+          stdout);
+    return CLI_OK;
+}
+
+/* Every height base + k * interval that the mesh reaches. */
+static bool find_lines(const request_t *request, const yb_mesh_t *mesh, yb_isolines_t *lines,
+                       yb_error_t *error)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (uint32_t i = 0; i < mesh->point_count; i++) {
+        low = fmin(low, mesh->point[i].z);
+        high = fmax(high, mesh->point[i].z);
+    }
+    const double first = ceil((low - request->base_m) / request->interval_m);
+    const double last = floor((high - request->base_m) / request->interval_m);
+    if (last - first >= MOST_HEIGHTS)
+        return yb_error_set(error, "an interval of %g m gives more than %d heights: choose more",
+                            request->interval_m, MOST_HEIGHTS);
+    for (int i = 0; i <= (int)(last - first); i++) {
+        const double height_m = request->base_m + (first + i) * request->interval_m;
+        if (!yb_isolines_add(lines, mesh, height_m))
+            return yb_error_set(error, "not enough memory for %s", request->output);
+    }
+    return true;
+}
+
+static int run(const request_t *request)
+{
+    yb_error_t error;
+    if (!yb_output_allowed(request->output, request->force, &error))
+        return cli_fail("%s", error.text);
+    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    if (file == NULL)
+        return cli_fail("%s", error.text);
+    file->map.detail = file->map.detail && !request->smooth;
+    yb_mesh_t mesh = {0};
+    yb_isolines_t lines = {0};
+    bool good = yb_mesh_from_map(&mesh, &file->map, YB_REFERENCE_Q8) ||
+                yb_error_set(&error, "not enough memory for %s", request->output);
+    good = good && find_lines(request, &mesh, &lines, &error) &&
+           yb_geofile_write_lines(request->output, request->force, &lines, &error);
+    yb_isolines_free(&lines);
+    yb_mesh_free(&mesh);
+    yb_code_file_free(file);
+    return good ? CLI_OK : cli_fail("%s", error.text);
+}
+
+int cli_contours(int argc, char **argv)
+{
+    request_t request = {0};
+    int answer = 0;
+    while ((answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
+        switch (answer) {
+        case 'o':
+            request.output = optarg;
+            break;
+        case OPTION_INTERVAL:
+            if (!cli_number(optarg, &request.interval_m) || request.interval_m <= 0)
+                return cli_usage("--interval: '%s' is not a height above 0", optarg);
+            break;
+        case OPTION_BASE:
+            if (!cli_number(optarg, &request.base_m) || fabs(request.base_m) > 1e6)
+                return cli_usage("--base: '%s' is not a height", optarg);
+            break;
+        case OPTION_NO_DETAIL:
+            request.smooth = true;
+            break;
+        case OPTION_FORCE:
+            request.force = true;
+            break;
+        case OPTION_HELP:
+            return help();
+        default:
+            return cli_bad_option(answer, argc, argv);
+        }
+    }
+    if (optind + 1 != argc)
+        return cli_usage("name one code, MAP.yb");
+    if (request.output == NULL)
+        return cli_usage("name the file of lines: -o OUT.geojson");
+    if (request.interval_m == 0)
+        return cli_usage("name the interval in metres: --interval M");
+    request.input = argv[optind];
+    return run(&request);
+}

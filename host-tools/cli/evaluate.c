@@ -1,0 +1,280 @@
+#include "cli.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "code_file.h"
+#include "comparison.h"
+#include "fidelity.h"
+#include "grid.h"
+#include "output.h"
+#include "picture.h"
+#include "sheet.h"
+#include "view_options.h"
+
+enum {
+    OPTION_WINDOW = 256,
+    OPTION_CENTER,
+    OPTION_KM,
+    OPTION_CELL,
+    OPTION_JSON,
+    OPTION_SHEET,
+    OPTION_FORCE,
+    OPTION_HELP
+};
+enum {
+    LATTICE = 256
+};
+
+static const struct option options[] = {{"window", required_argument, NULL, OPTION_WINDOW},
+                                        {"center", required_argument, NULL, OPTION_CENTER},
+                                        {"km", required_argument, NULL, OPTION_KM},
+                                        {"cell", required_argument, NULL, OPTION_CELL},
+                                        {"json", no_argument, NULL, OPTION_JSON},
+                                        {"sheet", required_argument, NULL, OPTION_SHEET},
+                                        {"force", no_argument, NULL, OPTION_FORCE},
+                                        {"help", no_argument, NULL, OPTION_HELP},
+                                        YB_VIEW_LONG_OPTIONS,
+                                        {0}};
+
+typedef struct {
+    const char *input, *reference, *sheet;
+    yb_window_t window;
+    double km;
+    bool json, force, help;
+    yb_view_options_t view;
+} request_t;
+
+static void help(void)
+{
+    fputs("Usage: yamabiko evaluate MAP.yb REFERENCE [OPTION ...]\n"
+          "\n"
+          "Says how faithful a code is to the real relief. REFERENCE is a raster of heights (any\n"
+          "that GDAL reads) that covers what the code was made from; it is laid on the map's\n"
+          "lattice.\n"
+          "\n"
+          "  RMSE    root of the mean squared difference of height\n"
+          "  NRMSE   RMSE over the standard deviation of the real heights\n"
+          "  p90     what nine tenths of the differences do not exceed; max: the largest\n"
+          "  slope   mean difference of slope, in degrees\n"
+          "  K       similarity of the contours, 0 to 1, from overlap (a), distance (d) and\n"
+          "          curvature (c); K = (a + d + c) / 3, weighted by the polygons' lengths\n"
+          "  N M F   points, contours and the bits of the 1985 paper's code, 12 N + 20 M + 8\n"
+          "\n"
+          "  --window XMIN YMIN XMAX YMAX   part of the reference, in its own coordinates\n"
+          "  --center LON LAT --km S        a square of S km round a place on earth (WGS 84)\n"
+          "  --cell M            metres per cell of a reference that does not say (default 30)\n"
+          "  --json              print it all as JSON\n"
+          "  --sheet FILE        a page with contours, polygons, both reliefs and these figures:\n"
+          "                      a PNG file; the view options below hold for its reliefs\n"
+          "  --force             overwrite what exists\n"
+          "  --help              this text\n"
+          "\n"
+          "View (of --sheet; its size is fixed):\n",
+          stdout);
+    fputs(yb_view_options_help, stdout);
+    fputs("\n"
+          "Example:\n"
+          "  yamabiko evaluate fuji.yb fuji.tif --sheet fuji.png\n",
+          stdout);
+}
+
+/* The numbers of an option that has several: the first in optarg, the others in argv. */
+static bool take_numbers(int argc, char **argv, int count, double *value)
+{
+    for (int i = 0; i < count; i++) {
+        const char *text = i == 0 ? optarg : optind < argc ? argv[optind++] : "";
+        if (!cli_number(text, &value[i]))
+            return false;
+    }
+    return true;
+}
+
+static int take_window(request_t *request, int answer, int argc, char **argv)
+{
+    double place[2];
+    switch (answer) {
+    case OPTION_WINDOW:
+        request->window.kind = YB_WINDOW_BOX;
+        if (!take_numbers(argc, argv, 4, request->window.box))
+            return cli_usage("--window needs four numbers: XMIN YMIN XMAX YMAX");
+        return CLI_OK;
+    case OPTION_CENTER:
+        request->window.kind = YB_WINDOW_CENTER;
+        if (!take_numbers(argc, argv, 2, place))
+            return cli_usage("--center needs two numbers: LON LAT");
+        request->window.lon_deg = place[0];
+        request->window.lat_deg = place[1];
+        return CLI_OK;
+    case OPTION_KM:
+        if (!cli_number(optarg, &request->km) || request->km <= 0)
+            return cli_usage("--km: '%s' is not a length above 0", optarg);
+        request->window.side_m = request->km * 1000;
+        return CLI_OK;
+    default:
+        if (!cli_number(optarg, &request->window.cell_m) || request->window.cell_m <= 0)
+            return cli_usage("--cell: '%s' is not a length above 0", optarg);
+        return CLI_OK;
+    }
+}
+
+static int take(request_t *request, int answer, int argc, char **argv)
+{
+    yb_error_t error;
+    if (yb_view_options_owns(answer)) {
+        if (!yb_view_options_take(&request->view, answer, argc, argv, &error))
+            return cli_usage("%s", error.text);
+        return CLI_OK;
+    }
+    switch (answer) {
+    case OPTION_WINDOW:
+    case OPTION_CENTER:
+    case OPTION_KM:
+    case OPTION_CELL:
+        return take_window(request, answer, argc, argv);
+    case OPTION_JSON:
+        request->json = true;
+        return CLI_OK;
+    case OPTION_SHEET:
+        request->sheet = optarg;
+        return CLI_OK;
+    case OPTION_FORCE:
+        request->force = true;
+        return CLI_OK;
+    case OPTION_HELP:
+        request->help = true;
+        return CLI_OK;
+    default:
+        return cli_bad_option(answer, argc, argv);
+    }
+}
+
+static int check(const request_t *request)
+{
+    yb_error_t error;
+    if (request->input == NULL)
+        return cli_usage("name one code and one raster: MAP.yb REFERENCE");
+    if ((request->window.kind == YB_WINDOW_CENTER) != (request->km > 0))
+        return cli_usage("--center and --km belong together");
+    if (request->json && request->sheet != NULL && strcmp(request->sheet, "-") == 0)
+        return cli_usage("--json and '--sheet -' both want the standard output");
+    if (!yb_view_options_check(&request->view, &error))
+        return cli_usage("%s", error.text);
+    return CLI_OK;
+}
+
+static void print_misfit(const char *name, const yb_misfit_t *misfit)
+{
+    printf("%-12s RMSE %.2f m   NRMSE %.4f   p90 %.2f m   max %.2f m   slope %.2f degrees\n", name,
+           misfit->rmse_m, misfit->nrmse, misfit->p90_m, misfit->max_m, misfit->slope_deg);
+}
+
+static void print_fidelity(const yb_fidelity_t *fidelity)
+{
+    printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes, (unsigned)fidelity->points,
+           (unsigned)fidelity->contours, (unsigned)fidelity->body_bits);
+    print_misfit("smooth", &fidelity->smooth);
+    print_misfit("with detail", &fidelity->detail);
+    printf("K %.4f\n", fidelity->k);
+    if (fidelity->contour_count != 0)
+        puts("\n  height m       K       a       d       c    length m");
+    for (size_t i = 0; i < fidelity->contour_count; i++) {
+        const yb_similarity_t *similarity = &fidelity->contour[i].similarity;
+        printf("%10.1f  %6.4f  %6.4f  %6.4f  %6.4f  %10.0f%s\n", fidelity->contour[i].height_m,
+               similarity->k, similarity->area, similarity->distance, similarity->curvature,
+               similarity->length, similarity->reproduced == YB_NO_LINE ? "  missing" : "");
+    }
+    puts("\n     lag m   real rise m   rise m");
+    for (uint32_t i = 0; i < fidelity->lag_count; i++)
+        printf("%10.1f  %12.2f  %7.2f\n", fidelity->lag_m[i], fidelity->reference_rise_m[i],
+               fidelity->detail_rise_m[i]);
+}
+
+static bool write_sheet(const request_t *request, yb_code_file_t *file,
+                        const yb_comparison_t *comparison, const yb_fidelity_t *fidelity,
+                        yb_error_t *error)
+{
+    yb_view_t view;
+    yb_picture_t sheet = {0};
+    size_t size = 0;
+    if (!yb_view_options_apply(&request->view, &file->map, &view, error))
+        return false;
+    const char *slash = strrchr(request->input, '/');
+    uint8_t *png = NULL;
+    if (yb_sheet_draw(&sheet, slash != NULL ? slash + 1 : request->input, file, comparison,
+                      fidelity, &view))
+        png = yb_picture_png(&sheet, &size);
+    yb_picture_free(&sheet);
+    const bool good = png != NULL
+                          ? yb_output_write(request->sheet, request->force, png, size, error)
+                          : yb_error_set(error, "not enough memory for %s", request->sheet);
+    free(png);
+    return good;
+}
+
+static bool evaluate(const request_t *request, yb_code_file_t *file, const yb_grid_t *reference,
+                     yb_error_t *error)
+{
+    yb_comparison_t comparison;
+    yb_fidelity_t fidelity;
+    if (!yb_comparison_make(&comparison, file, reference, error))
+        return false;
+    bool good = yb_fidelity_measure(&fidelity, file, &comparison) ||
+                yb_error_set(error, "not enough memory to compare %s with %s", request->input,
+                             request->reference);
+    if (!good) {
+        yb_comparison_free(&comparison);
+        return false;
+    }
+    if (request->sheet != NULL)
+        good = write_sheet(request, file, &comparison, &fidelity, error);
+    if (good && request->json) {
+        json_t *json = yb_fidelity_json(&fidelity);
+        json_dumpf(json, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(10));
+        putchar('\n');
+        json_decref(json);
+    } else if (good && (request->sheet == NULL || strcmp(request->sheet, "-") != 0)) {
+        print_fidelity(&fidelity);
+    }
+    yb_fidelity_free(&fidelity);
+    yb_comparison_free(&comparison);
+    return good;
+}
+
+static int run(const request_t *request)
+{
+    yb_error_t error;
+    if (request->sheet != NULL && !yb_output_allowed(request->sheet, request->force, &error))
+        return cli_fail("%s", error.text);
+    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    if (file == NULL)
+        return cli_fail("%s", error.text);
+    yb_grid_t *reference = yb_grid_read(request->reference, &request->window, LATTICE, &error);
+    const bool good = reference != NULL && evaluate(request, file, reference, &error);
+    yb_grid_free(reference);
+    yb_code_file_free(file);
+    return good ? CLI_OK : cli_fail("%s", error.text);
+}
+
+int cli_evaluate(int argc, char **argv)
+{
+    request_t request = {.view = yb_view_options_default()};
+    int answer = 0;
+    while ((answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
+        const int status = take(&request, answer, argc, argv);
+        if (status != CLI_OK)
+            return status;
+    }
+    if (request.help) {
+        help();
+        return CLI_OK;
+    }
+    if (optind + 2 == argc) {
+        request.input = argv[optind];
+        request.reference = argv[optind + 1];
+    }
+    const int status = check(&request);
+    return status != CLI_OK ? status : run(&request);
+}

@@ -1,0 +1,30 @@
+/* Analysis by synthesis: how far the surface that the engine makes of a code lies from the real
+ * one. It is the engine itself that is asked (design: one decoder); here its triangles are only
+ * sampled. Without detail: noise is not meant to hit any one place.
+ */
+#ifndef YB_JUDGE_H
+#define YB_JUDGE_H
+
+#include "grid.h"
+#include "paper_code.h"
+
+typedef struct yb_judge yb_judge_t;
+
+/* A judge with `side` samples on the grid's longer side. NULL: out of memory. */
+yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side);
+void yb_judge_free(yb_judge_t *judge);
+
+/* Root of the mean squared difference in metres at the samples, refining to edges of 16 steps; a
+ * negative number if the code is impossible. The judge keeps the differences until the next call.
+ */
+double yb_judge_rmse_m(yb_judge_t *judge, const yb_paper_t *paper);
+
+/* Where the surface judged last is farthest from the truth but within `share` (0 to 1, a random
+ * number) of the samples' total squared error: a place drawn in proportion to it.
+ */
+void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m);
+
+/* The exact figure: yb_map_height at all cells of the grid (at most 256 a side), in metres. */
+double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid);
+
+#endif

@@ -1,0 +1,132 @@
+#include "line_cut.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cpl_conv.h>
+#include <geos_c.h>
+
+/* A gap of up to this share of a line's length is closed. */
+static const double most_gap = 0.1;
+
+static GEOSGeometry *from_ogr(GEOSContextHandle_t geos, OGRGeometryH geometry)
+{
+    int size = OGR_G_WkbSize(geometry);
+    unsigned char *bytes = malloc((size_t)size);
+    GEOSGeometry *result = NULL;
+    if (bytes != NULL && OGR_G_ExportToWkb(geometry, wkbNDR, bytes) == OGRERR_NONE)
+        result = GEOSGeomFromWKB_buf_r(geos, bytes, (size_t)size);
+    free(bytes);
+    return result;
+}
+
+/* The parts of the lines in the frame, as long as they can be joined. */
+static GEOSGeometry *cut_and_join(GEOSContextHandle_t geos, const yb_lines_t *lines,
+                                  OGRGeometryH geometry)
+{
+    GEOSGeometry *whole = from_ogr(geos, geometry);
+    GEOSGeometry *frame = GEOSGeom_createRectangle_r(geos, 0, 0, lines->width_m, lines->depth_m);
+    GEOSGeometry *inside = NULL;
+    GEOSGeometry *joined = NULL;
+    if (whole != NULL && frame != NULL)
+        inside = GEOSIntersection_r(geos, whole, frame);
+    if (inside != NULL)
+        joined = GEOSLineMerge_r(geos, inside);
+    if (whole != NULL)
+        GEOSGeom_destroy_r(geos, whole);
+    if (frame != NULL)
+        GEOSGeom_destroy_r(geos, frame);
+    if (inside != NULL)
+        GEOSGeom_destroy_r(geos, inside);
+    return joined;
+}
+
+/* Moves a place onto the nearest side of the frame if it is within `snap`. */
+static bool snap_to_frame(const yb_lines_t *lines, yb_place_t *at, double snap)
+{
+    double west = fabs(at->x_m);
+    double east = fabs(lines->width_m - at->x_m);
+    double south = fabs(at->y_m);
+    double north = fabs(lines->depth_m - at->y_m);
+    double nearest = fmin(fmin(west, east), fmin(south, north));
+    if (nearest > snap)
+        return false;
+    if (nearest == west)
+        at->x_m = 0;
+    else if (nearest == east)
+        at->x_m = lines->width_m;
+    else if (nearest == south)
+        at->y_m = 0;
+    else
+        at->y_m = lines->depth_m;
+    return true;
+}
+
+static double distance(yb_place_t a, yb_place_t b)
+{
+    return hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
+
+static bool add_line(yb_lines_t *lines, double height_m, yb_place_t *place, int count,
+                     double snap_m)
+{
+    bool closed = distance(place[0], place[count - 1]) == 0;
+    if (closed) {
+        count--;
+    } else {
+        bool first = snap_to_frame(lines, &place[0], snap_m);
+        bool last = snap_to_frame(lines, &place[count - 1], snap_m);
+        if (!first || !last) {
+            yb_line_t line = {.count = count, .place = place};
+            closed = distance(place[0], place[count - 1]) < most_gap * yb_line_length_m(&line);
+            if (!closed) {
+                lines->dropped++;
+                return true;
+            }
+        }
+    }
+    if (count < (closed ? 3 : 2))
+        return true;
+    return yb_lines_add(lines, height_m, closed, place, count);
+}
+
+static bool add_geos_line(GEOSContextHandle_t geos, yb_lines_t *lines, double height_m,
+                          const GEOSGeometry *geometry, double snap_m)
+{
+    if (GEOSGeomTypeId_r(geos, geometry) != GEOS_LINESTRING)
+        return true; /* a line that only touched the frame leaves a point */
+    const GEOSCoordSequence *sequence = GEOSGeom_getCoordSeq_r(geos, geometry);
+    unsigned count = 0;
+    if (sequence == NULL || GEOSCoordSeq_getSize_r(geos, sequence, &count) == 0)
+        return false;
+    if (count < 2)
+        return true;
+    yb_place_t *place = calloc(count, sizeof(*place));
+    if (place == NULL)
+        return false;
+    bool good = true;
+    for (unsigned i = 0; i < count && good; i++)
+        good = GEOSCoordSeq_getXY_r(geos, sequence, i, &place[i].x_m, &place[i].y_m) != 0;
+    good = good && add_line(lines, height_m, place, (int)count, snap_m);
+    free(place);
+    return good;
+}
+
+bool yb_line_cut(yb_lines_t *lines, double height_m, OGRGeometryH geometry, double snap_m,
+                 yb_error_t *error)
+{
+    GEOSContextHandle_t geos = GEOS_init_r();
+    GEOSGeometry *joined = geos != NULL ? cut_and_join(geos, lines, geometry) : NULL;
+    bool good = joined != NULL;
+    int parts = good ? GEOSGetNumGeometries_r(geos, joined) : 0;
+    for (int i = 0; i < parts && good; i++)
+        good = add_geos_line(geos, lines, height_m, GEOSGetGeometryN_r(geos, joined, i), snap_m);
+    if (joined != NULL)
+        GEOSGeom_destroy_r(geos, joined);
+    if (geos != NULL)
+        GEOS_finish_r(geos);
+    if (!good)
+        return yb_error_set(error, "cannot cut the contour lines at %g m to the frame", height_m);
+    return true;
+}

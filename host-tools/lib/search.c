@@ -1,0 +1,408 @@
+#include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where the search stands. */
+typedef struct {
+    const yb_search_t *task;
+    uint64_t random;
+    double heat; /* 1 at the start, 0 at the end: how far changes go */
+    yb_paper_t now, next, best;
+} state_t;
+
+typedef bool (*change_fn)(state_t *state);
+
+/* splitmix64 */
+static uint64_t random_bits(state_t *state)
+{
+    state->random += 0x9e3779b97f4a7c15U;
+    uint64_t z = state->random;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebU;
+    return z ^ z >> 31;
+}
+
+/* 0 to 1 */
+static double random_share(state_t *state)
+{
+    return (double)(random_bits(state) >> 11) * 0x1p-53;
+}
+
+/* 0 to count - 1 */
+static int random_below(state_t *state, int count)
+{
+    return (int)(random_share(state) * count);
+}
+
+/* Symmetric round 0, more often small than large; mostly within ±size. */
+static double random_bell(state_t *state, double size)
+{
+    double sum = random_share(state) + random_share(state) + random_share(state) - 1.5;
+    return sum * size;
+}
+
+static int contour_of(const yb_paper_t *paper, int point)
+{
+    int contour = 0;
+    while (point >= paper->contour[contour].count)
+        point -= paper->contour[contour++].count;
+    return contour;
+}
+
+static int clamp(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+/* A move of up to `reach` steps in multiples of the lattice's difference. */
+static int random_move(state_t *state, double reach)
+{
+    int unit = 1 << state->next.shift;
+    return (int)lround(random_bell(state, 2 * reach) / unit) * unit;
+}
+
+static double reach_now(const state_t *state)
+{
+    return (1 << state->next.shift) * 1.5 + 40 * state->heat;
+}
+
+static bool is_frame_end(const yb_paper_t *paper, int contour, int first, int point)
+{
+    return paper->contour[contour].open &&
+           (point == first || point == first + paper->contour[contour].count - 1);
+}
+
+/* Slides an end along its side of the frame, not into a corner. */
+static bool slide_end(state_t *state, yb_step_t *at)
+{
+    int move = random_move(state, reach_now(state));
+    yb_paper_t *paper = &state->next;
+    if (at->x == 0 || at->x == paper->east) {
+        int y = at->y + move;
+        if (y <= 0 || y >= paper->north)
+            return false;
+        at->y = (uint8_t)y;
+    } else {
+        int x = at->x + move;
+        if (x <= 0 || x >= paper->east)
+            return false;
+        at->x = (uint8_t)x;
+    }
+    return move != 0;
+}
+
+static bool change_point(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int free_from = yb_paper_first(paper, state->task->pinned);
+    if (paper->point_count <= free_from)
+        return false;
+    int point = free_from + random_below(state, paper->point_count - free_from);
+    int contour = contour_of(paper, point);
+    int first = yb_paper_first(paper, contour);
+    yb_step_t *at = &paper->point[point];
+    if (is_frame_end(paper, contour, first, point))
+        return slide_end(state, at);
+    bool spot = paper->contour[contour].count == 1;
+    double reach = reach_now(state);
+    int move_x = spot ? (int)lround(random_bell(state, 2 * reach)) : random_move(state, reach);
+    int move_y = spot ? (int)lround(random_bell(state, 2 * reach)) : random_move(state, reach);
+    int x = at->x + move_x;
+    int y = at->y + move_y;
+    if (x < 1 || y < 1 || x >= paper->east || y >= paper->north)
+        return false;
+    at->x = (uint8_t)x;
+    at->y = (uint8_t)y;
+    return move_x != 0 || move_y != 0;
+}
+
+/* Moves a whole closed contour: the only way to change the remainders of its coordinates. */
+static bool change_place(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int contours = paper->contour_count - state->task->pinned;
+    if (contours <= 0)
+        return false;
+    int contour = state->task->pinned + random_below(state, contours);
+    if (paper->contour[contour].open)
+        return false;
+    int x = (int)lround(random_bell(state, 6 + 20 * state->heat));
+    int y = (int)lround(random_bell(state, 6 + 20 * state->heat));
+    int first = yb_paper_first(paper, contour);
+    for (int i = first; i < first + paper->contour[contour].count; i++) {
+        int new_x = paper->point[i].x + x;
+        int new_y = paper->point[i].y + y;
+        if (new_x < 1 || new_y < 1 || new_x >= paper->east || new_y >= paper->north)
+            return false;
+        paper->point[i] = (yb_step_t){(uint8_t)new_x, (uint8_t)new_y};
+    }
+    return x != 0 || y != 0;
+}
+
+static uint16_t moved_height(state_t *state, uint16_t height)
+{
+    double std = state->task->grid->std_m / yb_paper_metres(state->next.unit);
+    double move = random_bell(state, std * (0.08 + 0.6 * state->heat));
+    return (uint16_t)clamp((int)lround(height + move), 0, UINT16_MAX);
+}
+
+static bool change_height(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int contours = paper->contour_count - state->task->pinned;
+    if (contours <= 0)
+        return false;
+    int contour = state->task->pinned + random_below(state, contours);
+    paper->contour[contour].height = moved_height(state, paper->contour[contour].height);
+    return true;
+}
+
+static bool change_corner(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int corner = random_below(state, YB_CORNERS);
+    if (paper->corners == 0)
+        paper->frame = moved_height(state, paper->frame);
+    else if ((paper->corners >> corner & 1) != 0)
+        paper->corner[corner] = moved_height(state, paper->corner[corner]);
+    else
+        return false;
+    return true;
+}
+
+/* Codes a corner's height, or no longer. */
+static bool toggle_corner(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    paper->corners = (uint8_t)(paper->corners ^ 1U << random_below(state, YB_CORNERS));
+    return true;
+}
+
+/* A new point near the middle of a segment, off it to one side. */
+static bool add_point(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int free_from = yb_paper_first(paper, state->task->pinned);
+    if (paper->point_count <= free_from)
+        return false;
+    int point = free_from + random_below(state, paper->point_count - free_from);
+    int contour = contour_of(paper, point);
+    int first = yb_paper_first(paper, contour);
+    int count = paper->contour[contour].count;
+    bool last = point == first + count - 1;
+    if (count == 1 || (last && paper->contour[contour].open))
+        return false;
+    yb_step_t a = paper->point[point];
+    yb_step_t b = paper->point[last ? first : point + 1];
+    int unit = 1 << paper->shift;
+    double along = 0.3 + 0.4 * random_share(state);
+    double side = random_bell(state, 0.6);
+    double off_x = along * (b.x - a.x) - side * (b.y - a.y);
+    double off_y = along * (b.y - a.y) + side * (b.x - a.x);
+    int x = a.x + (int)lround(off_x / unit) * unit;
+    int y = a.y + (int)lround(off_y / unit) * unit;
+    if (x < 1 || y < 1 || x >= paper->east || y >= paper->north)
+        return false;
+    return yb_paper_insert(paper, contour, point + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
+}
+
+static bool remove_point(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int free_from = yb_paper_first(paper, state->task->pinned);
+    if (paper->point_count <= free_from)
+        return false;
+    int point = free_from + random_below(state, paper->point_count - free_from);
+    int contour = contour_of(paper, point);
+    int first = yb_paper_first(paper, contour);
+    if (is_frame_end(paper, contour, first, point))
+        return false;
+    if (paper->contour[contour].count <= 3 && !paper->contour[contour].open)
+        return false;
+    yb_paper_remove(paper, contour, point);
+    return true;
+}
+
+static bool transfer_point(state_t *state)
+{
+    return remove_point(state) && add_point(state);
+}
+
+static bool remove_contour(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int contours = paper->contour_count - state->task->pinned;
+    if (contours <= 0)
+        return false;
+    yb_paper_drop(paper, state->task->pinned + random_below(state, contours));
+    return true;
+}
+
+/* Somewhere, more often where the surface is wrong; strictly inside the frame. */
+static yb_step_t wanted_place(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    double east_m = 0;
+    double north_m = 0;
+    yb_judge_worst(state->task->judge, random_share(state), &east_m, &north_m);
+    double width = yb_grid_width_m(state->task->grid);
+    double depth = yb_grid_depth_m(state->task->grid);
+    int x = (int)lround(east_m / width * paper->east + random_bell(state, 8));
+    int y = (int)lround(north_m / depth * paper->north + random_bell(state, 8));
+    return (yb_step_t){(uint8_t)clamp(x, 1, paper->east - 1),
+                       (uint8_t)clamp(y, 1, paper->north - 1)};
+}
+
+static uint16_t true_height(const state_t *state, double x, double y)
+{
+    const yb_grid_t *grid = state->task->grid;
+    const yb_paper_t *paper = &state->next;
+    return yb_paper_height(paper, yb_grid_height(grid, x / paper->east * yb_grid_width_m(grid),
+                                                 y / paper->north * yb_grid_depth_m(grid)));
+}
+
+static bool add_spot(state_t *state)
+{
+    yb_step_t at = wanted_place(state);
+    return yb_paper_append(&state->next, true_height(state, at.x, at.y), false, &at, 1);
+}
+
+static bool transfer_spot(state_t *state)
+{
+    return remove_contour(state) && add_spot(state);
+}
+
+/* A ring of three or four points at one height. */
+static bool add_ring(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    yb_step_t middle = wanted_place(state);
+    int unit = 1 << paper->shift;
+    int count = 3 + random_below(state, 2);
+    double radius = 8 + 50 * random_share(state);
+    double turn = 6.2831853 * random_share(state);
+    yb_step_t point[4];
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        double angle = turn + 6.2831853 * i / count;
+        int x = middle.x + (int)lround(radius * cos(angle) / unit) * unit;
+        int y = middle.y + (int)lround(radius * sin(angle) / unit) * unit;
+        if (x < 1 || y < 1 || x >= paper->east || y >= paper->north)
+            return false;
+        point[i] = (yb_step_t){(uint8_t)x, (uint8_t)y};
+        sum += true_height(state, x, y);
+    }
+    return yb_paper_append(paper, (uint16_t)lround(sum / count), false, point, count);
+}
+
+/* A place on one of the four sides, whose coordinates are multiples of the lattice's difference. */
+static yb_step_t frame_place(state_t *state, int side)
+{
+    yb_paper_t *paper = &state->next;
+    int unit = 1 << paper->shift;
+    int along = side % 2 == 0 ? paper->east : paper->north;
+    int at = (1 + random_below(state, (along - 1) / unit - 1)) * unit;
+    switch (side) {
+    case 0:
+        return (yb_step_t){(uint8_t)at, 0};
+    case 1:
+        return (yb_step_t){paper->east, (uint8_t)at};
+    case 2:
+        return (yb_step_t){(uint8_t)at, paper->north};
+    default:
+        return (yb_step_t){0, (uint8_t)at};
+    }
+}
+
+/* A straight line from one side to another. */
+static bool add_crossing(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int side = random_below(state, 4);
+    int other = (side + 1 + random_below(state, 3)) % 4;
+    yb_step_t point[2] = {frame_place(state, side), frame_place(state, other)};
+    double x = (point[0].x + point[1].x) / 2.0;
+    double y = (point[0].y + point[1].y) / 2.0;
+    double sum = true_height(state, x, y);
+    for (int i = 0; i < 2; i++)
+        sum += true_height(state, point[i].x, point[i].y);
+    return yb_paper_append(paper, (uint16_t)lround(sum / 3), true, point, 2) &&
+           yb_paper_split(paper);
+}
+
+static bool transfer_ring(state_t *state)
+{
+    return remove_contour(state) && add_ring(state);
+}
+
+static bool transfer_crossing(state_t *state)
+{
+    return remove_contour(state) && add_crossing(state);
+}
+
+/* Two changes in one. */
+static bool change_twice(state_t *state)
+{
+    bool first = change_point(state);
+    bool second = change_point(state);
+    return first || second;
+}
+
+static bool choose_change(state_t *state)
+{
+    static const struct {
+        int weight; /* of 100 */
+        change_fn fn;
+    } changes[] = {
+        {34, change_point},  {6, change_twice},   {5, change_place}, {14, change_height},
+        {6, change_corner},  {1, toggle_corner},  {9, add_point},    {6, remove_point},
+        {8, transfer_point}, {2, remove_contour}, {3, add_spot},     {2, transfer_spot},
+        {1, add_ring},       {1, transfer_ring},  {1, add_crossing}, {1, transfer_crossing}};
+    int ticket = random_below(state, 100);
+    int i = 0;
+    while (ticket >= changes[i].weight)
+        ticket -= changes[i++].weight;
+    return changes[i].fn(state);
+}
+
+double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
+{
+    state_t *state = calloc(1, sizeof(*state));
+    double best = yb_judge_rmse_m(search->judge, paper);
+    if (state == NULL || best < 0) {
+        free(state);
+        return best;
+    }
+    state->task = search;
+    state->random = search->seed;
+    state->now = *paper;
+    state->best = *paper;
+    double now = best;
+    for (long trial = 0; trial < search->trials; trial++) {
+        double done = (double)trial / (double)search->trials;
+        double heat = search->hot * pow(search->cold / search->hot, done);
+        state->heat = (1 - done) * (1 - done);
+        if (search->progress != NULL && trial % 256 == 0)
+            search->progress(search->context, done);
+        state->next = state->now;
+        if (!choose_change(state) || yb_paper_size(&state->next) > search->most_bytes)
+            continue;
+        double next = yb_judge_rmse_m(search->judge, &state->next);
+        if (next < 0)
+            continue;
+        double worse = (next - now) / (heat * search->grid->std_m);
+        if (worse > 0 && random_share(state) >= exp(-worse))
+            continue;
+        state->now = state->next;
+        now = next;
+        if (now < best) {
+            best = now;
+            state->best = state->now;
+        }
+    }
+    *paper = state->best;
+    free(state);
+    return best;
+}

@@ -1,0 +1,30 @@
+/* The encoder's search: small changes to a code, kept when the judge finds the surface nearer to
+ * the truth, or, at first, not much farther (simulated annealing). Changes move, add and take away
+ * feature points, heights and whole contours inside a budget of bytes. The number of trials is
+ * fixed and the random numbers are our own: equal input gives equal bytes on every machine.
+ */
+#ifndef YB_SEARCH_H
+#define YB_SEARCH_H
+
+#include "judge.h"
+#include "paper_code.h"
+
+typedef struct {
+    const yb_grid_t *grid;
+    yb_judge_t *judge;
+    size_t most_bytes;
+    int pinned; /* so many contours at the front stay as they are: the summit */
+    long trials;
+    double hot, cold; /* temperatures at begin and end, as shares of the grid's std_m */
+    uint64_t seed;
+    /* Called now and then with the share done; may be NULL. */
+    void (*progress)(void *context, double share);
+    void *context;
+} yb_search_t;
+
+/* Improves the code in place, which must be possible at the start. Answers its RMSE in metres at
+ * the judge's samples.
+ */
+double yb_search_run(const yb_search_t *search, yb_paper_t *paper);
+
+#endif

@@ -1,0 +1,140 @@
+#include "sketch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_STEPS = 255
+};
+
+void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double low_m, double high_m,
+                     int shift)
+{
+    memset(paper, 0, sizeof(*paper));
+    int unit = 1 << shift;
+    int longest = MOST_STEPS / unit * unit;
+    double cell_m = fmax(width_m, depth_m) / longest;
+    int east = (int)lround(width_m / cell_m / unit) * unit;
+    int north = (int)lround(depth_m / cell_m / unit) * unit;
+    paper->east = (uint8_t)(east < 2 * unit ? 2 * unit : east);
+    paper->north = (uint8_t)(north < 2 * unit ? 2 * unit : north);
+    paper->shift = (uint8_t)shift;
+    paper->cell = yb_paper_unit(cell_m);
+    double range_m = high_m - low_m;
+    double lowest_m = floor(low_m - range_m / 2);
+    paper->base_m = (int16_t)fmin(fmax(lowest_m, INT16_MIN), INT16_MAX);
+    double unit_m = 1.0 / 64;
+    while (unit_m * UINT16_MAX < 2 * range_m + 2)
+        unit_m *= 2;
+    paper->unit = yb_paper_unit(unit_m);
+    paper->seed = 1;
+    paper->gain = 32;
+    paper->dimension = 64;
+    paper->frame = yb_paper_height(paper, low_m);
+}
+
+bool yb_sketch_spot(yb_paper_t *paper, const yb_lines_t *frame, yb_place_t at, double height_m,
+                    size_t most_bytes)
+{
+    double x = fmin(fmax(round(at.x_m / frame->width_m * paper->east), 1), paper->east - 1);
+    double y = fmin(fmax(round(at.y_m / frame->depth_m * paper->north), 1), paper->north - 1);
+    yb_step_t point = {(uint8_t)x, (uint8_t)y};
+    if (!yb_simplify_fits(paper, &point, 1, false) ||
+        !yb_paper_append(paper, yb_paper_height(paper, height_m), false, &point, 1))
+        return false;
+    if (yb_paper_size(paper) <= most_bytes)
+        return true;
+    yb_paper_drop(paper, paper->contour_count - 1);
+    return false;
+}
+
+/* Appends a line with the points that its long segments need, if all of it is possible. */
+static bool append_line(yb_paper_t *paper, double height_m, const yb_step_t *point, int count,
+                        bool open, size_t most_bytes)
+{
+    yb_paper_t before = *paper;
+    if (yb_simplify_fits(paper, point, count, open) &&
+        yb_paper_append(paper, yb_paper_height(paper, height_m), open, point, count) &&
+        yb_paper_split(paper) && yb_paper_size(paper) <= most_bytes) {
+        uint8_t code[YB_MAX_CODE_BYTES];
+        if (yb_paper_write(paper, code) > 0)
+            return true;
+    }
+    *paper = before;
+    return false;
+}
+
+int yb_sketch_lines(yb_paper_t *paper, const yb_lines_t *lines, double tolerance_m,
+                    size_t most_bytes)
+{
+    yb_lattice_t lattice = {.width_m = lines->width_m,
+                            .depth_m = lines->depth_m,
+                            .east = paper->east,
+                            .north = paper->north,
+                            .shift = paper->shift};
+    int added = 0;
+    for (int i = 0; i < lines->count; i++) {
+        const yb_line_t *line = &lines->line[i];
+        yb_step_t point[YB_PAPER_POINTS];
+        if (line->count == 1) {
+            added += yb_sketch_spot(paper, lines, line->place[0], line->height_m, most_bytes);
+            continue;
+        }
+        int count = yb_simplify_to_lattice(line, tolerance_m, &lattice, point, YB_PAPER_POINTS);
+        if (count > 0)
+            added += append_line(paper, line->height_m, point, count, !line->closed, most_bytes);
+    }
+    return added;
+}
+
+static int longer_first(const void *a, const void *b)
+{
+    const yb_line_t *first = a;
+    const yb_line_t *second = b;
+    double first_length = yb_line_length_m(first);
+    double second_length = yb_line_length_m(second);
+    if (first_length != second_length)
+        return first_length > second_length ? -1 : 1;
+    if (first->height_m != second->height_m)
+        return first->height_m > second->height_m ? -1 : 1;
+    if (first->place[0].x_m != second->place[0].x_m)
+        return first->place[0].x_m < second->place[0].x_m ? -1 : 1;
+    return first->place[0].y_m < second->place[0].y_m ? -1 : 1;
+}
+
+void yb_sketch_sort(yb_lines_t *lines)
+{
+    if (lines->count > 1)
+        qsort(lines->line, (size_t)lines->count, sizeof(*lines->line), longer_first);
+}
+
+yb_place_t yb_sketch_summit(const yb_grid_t *grid)
+{
+    int best = 0;
+    for (int i = 0; i < grid->columns * grid->rows; i++)
+        if (grid->height_m[i] > grid->height_m[best])
+            best = i;
+    int row = best / grid->columns;
+    return (yb_place_t){best % grid->columns * grid->cell_m, (grid->rows - 1 - row) * grid->cell_m};
+}
+
+static int by_height(const void *a, const void *b)
+{
+    float first = *(const float *)a;
+    float second = *(const float *)b;
+    return (first > second) - (first < second);
+}
+
+double yb_sketch_quantile(const yb_grid_t *grid, double share)
+{
+    size_t cells = (size_t)grid->columns * (size_t)grid->rows;
+    float *sorted = malloc(cells * sizeof(*sorted));
+    if (sorted == NULL)
+        return (double)grid->low_m + share * (double)(grid->high_m - grid->low_m);
+    memcpy(sorted, grid->height_m, cells * sizeof(*sorted));
+    qsort(sorted, cells, sizeof(*sorted), by_height);
+    double value = (double)sorted[(size_t)(share * (double)(cells - 1))];
+    free(sorted);
+    return value;
+}

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Prints what has been measured against what it may cost.
+
+    bench.py [--check] [GROUP ...]
+
+A line is group, name, target, value, unit, budget, separated by tabs; without a budget the last is
+"-". A group is a module tests/budget/group_<name>.py whose measure() yields (name, target, value,
+unit). The budgets are in budgets.tsv; with --check the exit status is 1 if an enforced one is
+exceeded, or if an enforced figure was not measured.
+"""
+
+import argparse
+import importlib
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def read_budgets():
+    """{(group, name, target): (most, enforced)}"""
+    budgets = {}
+    lines = (HERE / "budgets.tsv").read_text(encoding="utf-8").splitlines()
+    for line in lines:
+        if line and not line.startswith("#"):
+            group, name, target, most, enforced = line.split("\t")
+            if enforced not in ("yes", "no"):
+                raise ValueError(f"budgets.tsv: {line!r}: enforced is yes or no")
+            budgets[group, name, target] = (most, enforced == "yes")
+    return budgets
+
+
+def main():
+    known = sorted(path.stem.removeprefix("group_") for path in HERE.glob("group_*.py"))
+    parser = argparse.ArgumentParser(description="measured figures, one a line")
+    parser.add_argument("--check", action="store_true", help="fail if a budget is exceeded")
+    parser.add_argument("group", nargs="*", help=f"of {', '.join(known)}; without: all")
+    options = parser.parse_args()
+    unknown = set(options.group) - set(known)
+    if unknown:
+        parser.error(f"no group {', '.join(sorted(unknown))}: there are {', '.join(known)}")
+
+    budgets = read_budgets()
+    broken = []
+    chosen = options.group or known
+    missing = {key for key, (_, enforced) in budgets.items() if enforced and key[0] in chosen}
+    for group in chosen:
+        for name, target, value, unit in importlib.import_module(f"group_{group}").measure():
+            most, enforced = budgets.get((group, name, target), ("-", False))
+            print(group, name, target, value, unit, most, sep="\t", flush=True)
+            missing.discard((group, name, target))
+            if enforced and float(value) > float(most):
+                broken.append(f"{group}: {name}, {target}: {value} {unit}, at most {most}")
+    broken += [f"{', '.join(key)}: has a budget but was not measured" for key in sorted(missing)]
+    if options.check:
+        for line in broken:
+            print(line, file=sys.stderr)
+        return 1 if broken else 0
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,72 @@
+"""Instructions (not cycles) of loading a code and of drawing a frame, exact and repeatable."""
+
+import boards
+import paper_code
+
+
+def many_summits():
+    """The code with the most vertices: 251 spot heights, scattered by a fixed rule."""
+    places = set()
+    state = 1
+    while len(places) < 251:
+        state = (state * 1103515245 + 12345) & 0x7FFFFFFF
+        places.add((1 + (state >> 8) % 253, 1 + (state >> 18) % 253))
+    return paper_code.paper_code([(20 + (x * 7 + y * 13) % 50, [(x, y)])
+                                  for x, y in sorted(places)])
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) // len(values)
+
+
+def frame_regions(run):
+    """{setting: {view: instructions}}"""
+    frames = {}
+    for name, count in run.regions.items():
+        words = name.split()
+        if words[0] == "frame":
+            frames.setdefault(words[1], {})[words[2]] = count
+    return frames
+
+
+def measure_board(board):
+    target = boards.TARGETS[board]
+    runs = [boards.run_map(board, name, code) for name, code in boards.maps().items()]
+    loads = [run.regions["load"] for run in runs]
+    yield "load, mean of the maps", target, mean(loads), "instructions"
+    yield "load, worst of the maps", target, max(loads), "instructions"
+    crowded = boards.run_map(board, "many-summits", many_summits())
+    yield "load, 251 summits", target, crowded.regions["load"], "instructions"
+    frames = [frame_regions(run) for run in runs]
+    for setting in frames[0]:
+        for view in frames[0][setting]:
+            yield (f"frame {setting} {view}", target,
+                   mean(frame[setting][view] for frame in frames), "instructions")
+        yield (f"frame {setting}, mean of the views", target,
+               mean(mean(frame[setting].values()) for frame in frames), "instructions")
+
+
+def ratios(figures):
+    """What the figures say of each other: bands against a full height, and M0 against M3."""
+    def frame(setting, target):
+        return figures.get((f"frame {setting}, mean of the views", target))
+
+    for setting, full in (("128x64-rows16", "128x64-rows64"), ("128x64-rows8", "128x64-rows64"),
+                          ("128x64-rows1", "128x64-rows64"),
+                          ("320x240-rows16", "320x240-rows240")):
+        for target in boards.TARGETS.values():
+            if frame(setting, target) and frame(full, target):
+                yield (f"{setting} against {full}", target,
+                       f"{frame(setting, target) / frame(full, target):.2f}", "ratio")
+    pair = [frame("128x64-rows8", target) for target in ("cortex-m0", "cortex-m3")]
+    yield "128x64-rows8 against cortex-m3", "cortex-m0", f"{pair[0] / pair[1]:.2f}", "ratio"
+
+
+def measure():
+    figures = {}
+    for board in boards.TARGETS:
+        for name, target, value, unit in measure_board(board):
+            figures[name, target] = value
+            yield name, target, value, unit
+    yield from ratios(figures)

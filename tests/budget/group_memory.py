@@ -1,0 +1,33 @@
+"""RAM: the engine's structs, the stack, and the whole of what a screen size takes."""
+
+import boards
+
+# The band that each screen size is measured with.
+STANDARD = ("128x64-rows8", "320x240-rows12")
+STRUCTS = ("yb_map_t", "yb_load_t", "yb_frame_t")
+
+
+def measure_board(board):
+    target = boards.TARGETS[board]
+    runs = [boards.run_map(board, name, code) for name, code in boards.maps().items()]
+    sizes = runs[0].sizes
+    for name in STRUCTS:
+        yield f"size of {name}", target, sizes[name], "bytes"
+    load_stack = max(run.stack["load"] for run in runs)
+    yield "stack of loading", target, load_stack, "bytes"
+    engine = sizes["yb_map_t"] + max(sizes["yb_load_t"], sizes["yb_frame_t"])
+    for setting in STANDARD:
+        if f"band-{setting}" not in sizes:
+            continue
+        frame_stack = max(run.stack[f"frame-{setting}"] for run in runs)
+        yield f"stack of a frame {setting}", target, frame_stack, "bytes"
+        yield (f"all of it for {setting}", target,
+               engine + sizes[f"band-{setting}"] + max(load_stack, frame_stack), "bytes")
+    sections = boards.section_sizes(boards.firmware_elf(board))
+    yield "viewer firmware, .data and .bss", target, sections.get(".data", 0) + sections[".bss"], \
+        "bytes"
+
+
+def measure():
+    for board in boards.DEVICES:
+        yield from measure_board(board)

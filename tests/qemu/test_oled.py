@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""The handheld shows, pixel for pixel, what the PC draws."""
+
+import os
+import tempfile
+import unittest
+
+import firmware
+import paper_code
+
+
+class Oled(unittest.TestCase):
+    def check_map(self, path):
+        with firmware.board("lm3s6965evb", path) as board:
+            self.assertIn(" slot=ok map=slot", board.greeting)
+            for azimuth in firmware.AZIMUTHS_BAM:
+                expected = firmware.frame_bytes(path, azimuth)
+                frame = board.pause_at(azimuth)
+                self.assertEqual(frame.hash, firmware.frame_hash(expected), f"azimuth {azimuth}")
+                self.check_picture(board.picture(), firmware.frame_rows(expected), azimuth)
+            self.assertNotIn("ssd0323: error", board.stderr())
+
+    def check_picture(self, shown, expected, azimuth):
+        self.assertGreater(len(set(b"".join(expected))), 4, "a mountain has more than 4 greys")
+        wrong = [(x, y) for y in range(64) for x in range(128) if shown[y][x] != expected[y][x]]
+        self.assertEqual(wrong, [], f"azimuth {azimuth}: pixels that differ")
+
+    def test_two_summits(self):
+        with tempfile.NamedTemporaryFile(suffix=".yb") as file:
+            file.write(paper_code.two_summits())
+            file.flush()
+            self.check_map(file.name)
+
+    def test_gallery(self):
+        for path in firmware.gallery():
+            with self.subTest(map=os.path.basename(path)):
+                self.check_map(path)
+
+    def test_still_while_paused(self):
+        with firmware.board("lm3s6965evb") as board:
+            first = board.pause()
+            shown = board.picture()
+            again = board.pause()
+            self.assertEqual((again.azimuth_bam, again.hash), (first.azimuth_bam, first.hash))
+            self.assertEqual(board.picture(), shown)
+            self.assertNotEqual(board.next().hash, first.hash)
+            self.assertNotEqual(board.picture(), shown)
+
+    def test_runs_on(self):
+        with firmware.board("lm3s6965evb") as board:
+            first = board.pause()
+            turned = first
+            while turned.azimuth_bam == first.azimuth_bam:
+                board.send("r")
+                turned = board.pause()
+
+
+if __name__ == "__main__":
+    unittest.main()
