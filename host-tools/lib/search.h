@@ -13,7 +13,9 @@ typedef struct {
     const yb_grid_t *grid;
     yb_judge_t *judge;
     size_t most_bytes;
-    int pinned; /* so many contours at the front stay as they are: the summit */
+    int pinned;            /* so many contours at the front stay as they are: the summit */
+    const uint16_t *level; /* heights that lines may have, rising, in the code's units */
+    int levels;            /* and how many; 0: any height */
     long trials;
     double hot, cold; /* temperatures at begin and end, as shares of the grid's std_m */
     uint64_t seed;
