@@ -28,7 +28,7 @@ _yamabiko()
     esac
     if [[ -z $values && $word == -* ]]; then
         values=$("$command" "$verb" --help 2>/dev/null |
-            grep -oE -- '--[a-z][a-z-]*' | sort -u)
+            grep -oE -- "--[a-z][a-z-]*" | sort -u) || true
     fi
 
     if [[ -n $values ]]; then
