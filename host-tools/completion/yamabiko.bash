@@ -2,7 +2,7 @@
 
 _yamabiko()
 {
-    local command=$1 word=$2 before=$3 verb= i values=
+    local command=$1 word=$2 before=$3 verb='' i values=''
     for ((i = 1; i < COMP_CWORD; i++)); do
         if [[ ${COMP_WORDS[i]} != -* ]]; then
             verb=${COMP_WORDS[i]}
@@ -34,7 +34,7 @@ _yamabiko()
     if [[ -n $values ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
     else
-        compopt -o filenames 2>/dev/null
+        compopt -o filenames 2>/dev/null || true # only in a real completion
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
 }
