@@ -2,7 +2,8 @@
 """tidy.py BUILD FOLDER: clang-tidy on the C files of FOLDER, as BUILD compiles them.
 
 A file that was good is not looked at again until it, a header of it, the rules or clang-tidy
-change: its preprocessed text is remembered in BUILD/tidy.
+change: its preprocessed text is remembered in BUILD/tidy. Assertions are on, whatever the build:
+they tell clang-tidy what cannot be.
 """
 
 import concurrent.futures
@@ -26,7 +27,7 @@ def fingerprint(entry, rules):
         del arguments[0]
     place = arguments.index("-o")
     del arguments[place:place + 2]
-    arguments = [a for a in arguments if a != "-c"] + ["-E", "-C"]
+    arguments = [a for a in arguments if a != "-c"] + ["-UNDEBUG", "-E", "-C"]
     return hashlib.sha256(rules + output_of(arguments, entry["directory"])).hexdigest()
 
 
@@ -35,7 +36,8 @@ def look(build, entry, rules):
     stamp = build / "tidy" / fingerprint(entry, rules)
     if stamp.exists():
         return ""
-    result = subprocess.run(["clang-tidy", "--quiet", "-p", str(build), entry["file"]],
+    result = subprocess.run(["clang-tidy", "--quiet", "--extra-arg=-UNDEBUG", "-p", str(build),
+                             entry["file"]],
                             capture_output=True, text=True, check=False)
     if result.returncode == 0 and not result.stdout.strip():
         stamp.touch()

@@ -144,7 +144,7 @@ class Setup(unittest.TestCase):
     def test_another_system_with_the_tools(self):
         self.debian("ID=fedora\nVERSION_ID=40\n")
         (self.bin / "dpkg-query").unlink()
-        for name in ("gcc make cmake ninja pkg-config git arm-none-eabi-gcc qemu-system-arm "
+        for name in ("gcc make cmake ninja pkg-config arm-none-eabi-gcc qemu-system-arm "
                      "python3 clang llvm-symbolizer g++ clang-format clang-tidy cppcheck "
                      "shellcheck man groff flex bison bc perl xz").split():
             self.command(name, "")
