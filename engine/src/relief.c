@@ -178,8 +178,9 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
                                     : (uint64_t)fix_exp2_q11(term) << 8;
         }
     }
-    sum /= edges;
-    return sum == 0 ? INT32_MIN : fix_log2_q11(sum) - 8 * 2048;
+    if (edges == 0 || sum < edges)
+        return INT32_MIN;
+    return fix_log2_q11(sum / edges) - 8 * 2048;
 }
 
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
