@@ -148,6 +148,31 @@ static uint16_t moved_height(state_t *state, uint16_t height)
     return (uint16_t)clamp((int)lround(height + move), 0, UINT16_MAX);
 }
 
+/* Index of the given level nearest to a height. */
+static int nearest_level(const yb_search_t *task, double height)
+{
+    int best = 0;
+    for (int i = 1; i < task->levels; i++)
+        if (fabs(task->level[i] - height) < fabs(task->level[best] - height))
+            best = i;
+    return best;
+}
+
+/* The height of a new line that should lie at `height`. */
+static uint16_t line_height(const state_t *state, double height)
+{
+    const yb_search_t *task = state->task;
+    return task->levels > 0 ? task->level[nearest_level(task, height)] : (uint16_t)lround(height);
+}
+
+/* The next level above or below. */
+static uint16_t other_level(state_t *state, uint16_t height)
+{
+    const yb_search_t *task = state->task;
+    int step = random_below(state, 2) == 0 ? -1 : 1;
+    return task->level[clamp(nearest_level(task, height) + step, 0, task->levels - 1)];
+}
+
 static bool change_height(state_t *state)
 {
     yb_paper_t *paper = &state->next;
@@ -155,8 +180,13 @@ static bool change_height(state_t *state)
     if (contours <= 0)
         return false;
     int contour = state->task->pinned + random_below(state, contours);
-    paper->contour[contour].height = moved_height(state, paper->contour[contour].height);
-    return true;
+    uint16_t *height = &paper->contour[contour].height;
+    uint16_t before = *height;
+    if (paper->contour[contour].count > 1 && state->task->levels > 0)
+        *height = other_level(state, before);
+    else
+        *height = moved_height(state, before);
+    return *height != before;
 }
 
 static bool change_corner(state_t *state)
@@ -294,7 +324,7 @@ static bool add_ring(state_t *state)
         point[i] = (yb_step_t){(uint8_t)x, (uint8_t)y};
         sum += true_height(state, x, y);
     }
-    return yb_paper_append(paper, (uint16_t)lround(sum / count), false, point, count);
+    return yb_paper_append(paper, line_height(state, sum / count), false, point, count);
 }
 
 /* A place on one of the four sides, whose coordinates are multiples of the lattice's difference. */
@@ -328,7 +358,7 @@ static bool add_crossing(state_t *state)
     double sum = true_height(state, x, y);
     for (int i = 0; i < 2; i++)
         sum += true_height(state, point[i].x, point[i].y);
-    return yb_paper_append(paper, (uint16_t)lround(sum / 3), true, point, 2) &&
+    return yb_paper_append(paper, line_height(state, sum / 3), true, point, 2) &&
            yb_paper_split(paper);
 }
 
@@ -370,7 +400,7 @@ static bool choose_change(state_t *state)
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
 {
     state_t *state = calloc(1, sizeof(*state));
-    double best = yb_judge_rmse_m(search->judge, paper);
+    double best = yb_judge_score_m(search->judge, paper);
     if (state == NULL || best < 0) {
         free(state);
         return best;
@@ -389,7 +419,7 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
         state->next = state->now;
         if (!choose_change(state) || yb_paper_size(&state->next) > search->most_bytes)
             continue;
-        double next = yb_judge_rmse_m(search->judge, &state->next);
+        double next = yb_judge_score_m(search->judge, &state->next);
         if (next < 0)
             continue;
         double worse = (next - now) / (heat * search->grid->std_m);
