@@ -14,6 +14,7 @@ import re
 import socket
 import subprocess
 import tempfile
+import time
 
 SLOT_ADDRESS = 0x3F000
 PATIENCE_S = 30
@@ -145,14 +146,19 @@ class Board:
 
     def send(self, command):
         self.console.sendall(command.encode("ascii"))
+        # QEMU looks whether a UART takes characters only when its main loop comes by, which it did
+        # before the guest started its receiver, and may not again: any request wakes it.
+        self.monitor.execute("query-status")
 
     def pause(self):
         """Holds the turntable still; frames drawn until then may still be told before."""
         self.send("p")
-        while True:
+        deadline = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline:
             frame = Frame(self.line())
             if frame.paused:
                 return frame
+        raise BoardError("the board does not pause")
 
     def next(self, steps=1):
         """While paused: the next frame, or the one 16 steps on."""
