@@ -328,7 +328,7 @@ int cli_info(int argc, char **argv)
     if (info == NULL) {
         status = cli_fail("out of memory");
     } else {
-        gather(info, argv[optind], file);
+        gather(info, strcmp(argv[optind], "-") == 0 ? "the standard input" : argv[optind], file);
         if (json)
             status = print_json(info);
         else

@@ -15,7 +15,7 @@ enum {
     DRAFTS = 3,          /* kept of all that are tried */
     FREE_LEVELS = 6,     /* drafts have 1 to so many levels when their heights are free */
     MEASURED_LEVELS = 9, /* for the fractal dimension */
-    BASE_TRIALS = 4000,  /* at effort 1 */
+    BASE_TRIALS = 8000,  /* at effort 1 */
     FEW_BYTES = 40       /* below that, corner heights cost too much to begin with */
 };
 
@@ -26,14 +26,14 @@ enum {
 };
 
 /* Temperatures of the search, as shares of the relief's standard deviation. */
-static const double hot = 0.01;
-static const double cold = 0.0005;
+static const double hot = 0.004;
+static const double cold = 0.0001;
 /* Part of the trials spent on all drafts before the best is chosen. */
 static const double first_part = 0.3;
 
 typedef struct {
     yb_paper_t paper;
-    double rmse_m;
+    double score_m;
 } draft_t;
 
 typedef struct {
@@ -102,11 +102,11 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int shift)
 /* Keeps a draft if it is among the best. */
 static void offer_draft(encoder_t *encoder, const yb_paper_t *paper)
 {
-    double rmse = yb_judge_rmse_m(encoder->judge, paper);
+    double rmse = yb_judge_score_m(encoder->judge, paper);
     if (rmse < 0)
         return;
     int at = encoder->drafts;
-    while (at > 0 && encoder->draft[at - 1].rmse_m > rmse)
+    while (at > 0 && encoder->draft[at - 1].score_m > rmse)
         at--;
     if (at >= DRAFTS)
         return;
@@ -115,7 +115,7 @@ static void offer_draft(encoder_t *encoder, const yb_paper_t *paper)
     memmove(&encoder->draft[at + 1], &encoder->draft[at],
             (size_t)(encoder->drafts - 1 - at) * sizeof(draft_t));
     encoder->draft[at].paper = *paper;
-    encoder->draft[at].rmse_m = rmse;
+    encoder->draft[at].score_m = rmse;
 }
 
 /* Drafts of one set of lines, coarse and fine. */
@@ -188,7 +188,7 @@ static void better_draft(encoder_t *encoder, draft_t *draft, long trials, double
                           .seed = 1,
                           .progress = report,
                           .context = encoder};
-    draft->rmse_m = yb_search_run(&search, &draft->paper);
+    draft->score_m = yb_search_run(&search, &draft->paper);
 }
 
 /* A short search from each draft, a long one from what became the best. */
@@ -198,7 +198,7 @@ static draft_t *search_best(encoder_t *encoder, long trials)
     for (int i = 0; i < encoder->drafts; i++) {
         double part = first_part / encoder->drafts;
         better_draft(encoder, &encoder->draft[i], (long)(part * (double)trials), i * part, part);
-        if (encoder->draft[i].rmse_m < best->rmse_m)
+        if (encoder->draft[i].score_m < best->score_m)
             best = &encoder->draft[i];
     }
     better_draft(encoder, best, (long)((1 - first_part) * (double)trials), first_part,

@@ -138,6 +138,8 @@ static const yb_line_t *line_around(const yb_lines_t *lines, const yb_line_t *li
 /* The place in a closed line that is farthest from it. */
 static bool deepest_place(GEOSContextHandle_t geos, const yb_line_t *line, yb_place_t *at)
 {
+    if (line->count < 3)
+        return false;
     GEOSCoordSequence *sequence = GEOSCoordSeq_create_r(geos, (unsigned)line->count + 1, 2);
     if (sequence == NULL)
         return false;

@@ -400,7 +400,7 @@ static bool choose_change(state_t *state)
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
 {
     state_t *state = calloc(1, sizeof(*state));
-    double best = yb_judge_rmse_m(search->judge, paper);
+    double best = yb_judge_score_m(search->judge, paper);
     if (state == NULL || best < 0) {
         free(state);
         return best;
@@ -419,7 +419,7 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
         state->next = state->now;
         if (!choose_change(state) || yb_paper_size(&state->next) > search->most_bytes)
             continue;
-        double next = yb_judge_rmse_m(search->judge, &state->next);
+        double next = yb_judge_score_m(search->judge, &state->next);
         if (next < 0)
             continue;
         double worse = (next - now) / (heat * search->grid->std_m);

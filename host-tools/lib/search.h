@@ -24,8 +24,8 @@ typedef struct {
     void *context;
 } yb_search_t;
 
-/* Improves the code in place, which must be possible at the start. Answers its RMSE in metres at
- * the judge's samples.
+/* Improves the code in place, which must be possible at the start. Answers the
+ * judge's score of it.
  */
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper);
 

@@ -171,7 +171,7 @@ static bool compare(GEOSContextHandle_t geos, yb_similarity_t *similarity,
 {
     arc_t first = {0}, second = {0};
     const bool good = arc_make(&first, original) && arc_make(&second, reproduced);
-    similarity->hausdorff = yb_region_line_distance(geos, original, reproduced);
+    similarity->hausdorff = yb_region_distance(geos, original, reproduced);
     if (good && similarity->hausdorff >= 0) {
         const double radius = sqrt(original->area / acos(-1.0));
         similarity->distance = 1 - fmin(1, similarity->hausdorff / radius);

@@ -18,7 +18,7 @@ typedef struct {
     double curvature;  /* c: share of the steps that turn the same way */
     double k;          /* (a + d + c) / 3; all four are 0 if a line is missing */
     double length;     /* of the coded polygon: its weight */
-    double hausdorff;  /* greatest distance of the two lines */
+    double hausdorff;  /* greatest distance of the two boundaries */
     size_t original;   /* index of the original line; YB_NO_LINE: none overlaps the polygon */
     size_t reproduced; /* index of the reproduced line; YB_NO_LINE: none overlaps the original */
 } yb_similarity_t;

@@ -227,7 +227,7 @@ static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *er
 {
     if (yb_ground_in_metres(srs))
         return true;
-    double box[4];
+    double box[4] = {0};
     extent_of(reader, box);
     reader->local = yb_ground_local(srs, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2);
     OGRCoordinateTransformationH transformation =
@@ -245,7 +245,7 @@ static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *er
 static bool choose_box(reader_t *reader, OGRSpatialReferenceH srs, const yb_window_t *window,
                        yb_error_t *error)
 {
-    double extent[4];
+    double extent[4] = {0};
     extent_of(reader, extent);
     memcpy(reader->box, extent, sizeof(extent));
     if (window->kind == YB_WINDOW_BOX) {
@@ -315,7 +315,8 @@ static bool gather(const reader_t *reader, yb_lines_t *lines, double height_m,
 
 static bool cut_shapes(reader_t *reader, yb_lines_t *lines, yb_error_t *error)
 {
-    qsort(reader->shape, (size_t)reader->count, sizeof(shape_t), by_height);
+    if (reader->count > 1)
+        qsort(reader->shape, (size_t)reader->count, sizeof(shape_t), by_height);
     double snap_m = snap_share * fmax(lines->width_m, lines->depth_m);
     for (int from = 0, to = 0; from < reader->count; from = to) {
         double height_m = reader->shape[from].height_m;

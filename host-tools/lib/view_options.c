@@ -30,7 +30,7 @@ const char yb_view_options_help[] =
     "  --water M           water up to M metres above the datum\n"
     "  --exaggerate F      vertical scale, 0.01 to 8 (default 1)\n"
     "  --walls on|off      the sides of the block (default on)\n"
-    "  --edge PIXELS       longest edge of a triangle on the screen (default 4)\n"
+    "  --edge PIXELS       longest edge of a triangle on the screen (default 6)\n"
     "  --max-leaves N      at most N triangles (default: no bound)\n"
     "  --band ROWS         draw so many rows at a time (default: all); same pixels\n"
     "  --no-detail         the smooth surface, without fractal detail\n";

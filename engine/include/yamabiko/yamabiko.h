@@ -245,7 +245,7 @@ typedef struct {
     uint32_t max_leaves;     /* at most so many triangles refined in a frame; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to 6 pixels, sun in the north-west 45
+/* The standard: 50 degrees across, true scale, edges up to 7 pixels, sun in the north-west 45
  * degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
@@ -312,7 +312,7 @@ typedef struct {
     yb_point_t middle[3];
     uint8_t pattern; /* which edges are split */
     uint8_t child;   /* next child to visit */
-    bool inside;     /* wholly in the picture: no bounds need a test any more */
+    uint8_t planes;  /* sides of the view that it may still stick out of */
 } yb_level_t;
 
 /* Rows are binned in units that fit a byte. */
