@@ -7,7 +7,8 @@
 enum {
     HASH_MEAN = 510,   /* of the sum of four bytes; also its largest deviation */
     HASH_LOG2_Q11 = 14761, /* log2 of its standard deviation, 147.80, in 1/2048 */
-    NOISE_SHIFT = 9
+    NOISE_SHIFT = 9,
+    MOST_REACH_Q8 = 400000 /* what gravity leaves: see relief_reach */
 };
 
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
@@ -84,7 +85,12 @@ int32_t relief_reach(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */
     int32_t reach = bulge + (bulge >> 1) + 16;
-    return map->detail ? reach + map->reach_q8[longest] : reach;
+    if (!map->detail)
+        return reach;
+    /* A reach too large for its table is one that gravity limits: the noise of an edge is at most its
+     * length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L. */
+    bool limited = map->reach_q8[longest] == UINT16_MAX;
+    return reach + (limited ? MOST_REACH_Q8 : map->reach_q8[longest]);
 }
 
 /* --- The constants of the map ----------------------------------------------------------------- */
