@@ -134,7 +134,9 @@ bool shape_comb(plan_t *plan, int x, int y, int teeth, int pitch, int length, in
 /* A place on the frame. */
 static plan_point_t frame_place(const plan_t *plan, rng_t *rng)
 {
-    plan_point_t p = {rng_range(rng, 0, plan->east), rng_range(rng, 0, plan->north)};
+    plan_point_t p;
+    p.x = rng_range(rng, 0, plan->east);
+    p.y = rng_range(rng, 0, plan->north);
     if (rng_one_in(rng, 5)) {
         p.x = rng_one_in(rng, 2) ? 0 : plan->east;
         p.y = rng_one_in(rng, 2) ? 0 : plan->north;
@@ -156,8 +158,9 @@ bool random_open_line(plan_t *plan, rng_t *rng, int height)
     dot(&sketch, from.x, from.y);
     for (int i = 1; i <= bends; i++) {
         double part = (double)i / (bends + 1);
-        dot(&sketch, from.x + part * (to.x - from.x) + wild * (rng_unit(rng) - 0.5),
-            from.y + part * (to.y - from.y) + wild * (rng_unit(rng) - 0.5));
+        double aside = wild * (rng_unit(rng) - 0.5);
+        double on = wild * (rng_unit(rng) - 0.5);
+        dot(&sketch, from.x + part * (to.x - from.x) + aside, from.y + part * (to.y - from.y) + on);
     }
     dot(&sketch, to.x, to.y);
     return finish(plan, &sketch, height);
@@ -176,10 +179,10 @@ static void spots(plan_t *plan, rng_t *rng, int count, int height)
     static const int ring[12][2] = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
                                     {-5, 0}, {-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}};
     for (int i = 0; i < count; i++) {
-        plan_point_t p = {rng_range(rng, 1, plan->east), rng_range(rng, 1, plan->north)};
-        if (kind == 1)
-            p = (plan_point_t){x + rng_range(rng, -8, 8), y + rng_range(rng, -8, 8)};
-        else if (kind == 2)
+        plan_point_t p;
+        p.x = rng_range(rng, kind == 1 ? x - 8 : 1, kind == 1 ? x + 8 : plan->east);
+        p.y = rng_range(rng, kind == 1 ? y - 8 : 1, kind == 1 ? y + 8 : plan->north);
+        if (kind == 2)
             p = (plan_point_t){x + i * dx, y + i * dy};
         else if (kind == 3)
             p = (plan_point_t){x + ring[i % 12][0] * (pitch + i / 12),
@@ -195,7 +198,9 @@ static void spots(plan_t *plan, rng_t *rng, int count, int height)
 static void random_header(plan_t *plan, rng_t *rng)
 {
     static const int sides[] = {255, 255, 255, 128, 200, 64, 24, 9, 3};
-    plan_init(plan, sides[rng_range(rng, 0, 8)], sides[rng_range(rng, 0, 8)]);
+    int east = sides[rng_range(rng, 0, 8)];
+    int north = sides[rng_range(rng, 0, 8)];
+    plan_init(plan, east, north);
     plan->shift = rng_one_in(rng, 3) ? rng_range(rng, 1, 3) : 0;
     plan->cell = rng_range(rng, 32, 512);
     plan->unit = rng_range(rng, 16, 128);
@@ -214,6 +219,8 @@ static void random_shape(plan_t *plan, rng_t *rng)
     int y = rng_range(rng, 1, plan->north);
     int radius = rng_range(rng, 1, side / 2 + 1);
     int height = rng_range(rng, 0, 200);
+    int pitch;
+    int count;
     switch (rng_range(rng, 0, 7)) {
     case 0:
         for (int r = radius; r > 1 && shape_blob(plan, rng, x, y, r, height); r = r * 3 / 5)
@@ -229,15 +236,16 @@ static void random_shape(plan_t *plan, rng_t *rng)
         (void)shape_spiral(plan, rng, x, y, radius, height);
         break;
     case 4:
-        (void)shape_comb(plan, x, y, rng_range(rng, 2, 20), rng_range(rng, 2, 8), radius, height);
+        pitch = rng_range(rng, 2, 8);
+        (void)shape_comb(plan, x, y, rng_range(rng, 2, 20), pitch, radius, height);
         break;
     case 5:
     case 6:
         (void)random_open_line(plan, rng, height);
         break;
     default:
-        spots(plan, rng, rng_one_in(rng, 8) ? rng_range(rng, 1, 200) : rng_range(rng, 1, 16),
-              height);
+        count = rng_one_in(rng, 8) ? 200 : 16;
+        spots(plan, rng, rng_range(rng, 1, count), height);
         break;
     }
 }
@@ -270,9 +278,11 @@ void random_mess(plan_t *plan, rng_t *rng)
     int contours = rng_range(rng, 1, 6);
     for (int i = 0; i < contours; i++) {
         sketch_t sketch = {.count = 0};
-        plan_point_t at = rng_one_in(rng, 3) ? frame_place(plan, rng)
-                                             : (plan_point_t){rng_range(rng, 1, plan->east - 1),
-                                                              rng_range(rng, 1, plan->north - 1)};
+        plan_point_t at = frame_place(plan, rng);
+        if (!rng_one_in(rng, 3)) {
+            at.x = rng_range(rng, 1, plan->east - 1);
+            at.y = rng_range(rng, 1, plan->north - 1);
+        }
         int count = rng_range(rng, 1, 8);
         int reach = rng_range(rng, 1, 31);
         for (int k = 0; k < count; k++) {
