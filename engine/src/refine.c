@@ -203,6 +203,8 @@ void refine_draw(yb_frame_t *frame, const raster_t *raster, uint16_t triangle)
     level->inside = false;
     bool down = open_level(frame, raster, level);
     for (;;) {
+        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
+            return; /* counted enough: too many */
         const uint8_t *child = split_child[level->pattern][level->child & 3];
         if (!down || level->child == SPLIT_CHILDREN || *child == SPLIT_END) {
             if (level == frame->level)
