@@ -4,9 +4,9 @@
 
 #include "fix.h"
 
-/* Twice an area in 1/256 square pixel. Corners lie within a screen size of the screen, so
- * differences are at most 3 * 16 * YB_MAX_SIDE: 24576 for 512 pixels, and a product of two, twice,
- * 2 * 24576^2 < 2^31.
+/* Twice an area in 1/256 square pixel. Corners lie within a screen size and a little of the screen,
+ * so differences are at most 3 * 16 * YB_MAX_SIDE + 80: 24656 for 512 pixels, and a product of two,
+ * twice, 2 * 24656^2 < 2^31.
  */
 #if YB_MAX_SIDE <= 512
 typedef int32_t area_t;
@@ -40,7 +40,9 @@ void raster_clear(const raster_t *raster, uint16_t pixel)
 
 /* --- The plane of 1/depth --------------------------------------------------------------------- */
 
-/* a * 2^18 / b, for |a| < 2^30 and b > 0, cut to ±2^30. */
+enum { STEEPEST_Q14 = 1 << 30 };
+
+/* a * 2^18 / b, for |a| < 2^30 and b > 0, cut to ±STEEPEST_Q14. */
 static int32_t ratio_q18(int32_t a, int32_t b)
 {
     uint32_t size = (uint32_t)fix_abs(a);
@@ -51,13 +53,14 @@ static int32_t ratio_q18(int32_t a, int32_t b)
     if (shift > 18)
         q >>= shift - 18;
     else
-        q = q >= 1u << (12 + shift) ? 1u << 30 : q << (18 - shift);
+        q = q >= 1u << (12 + shift) ? STEEPEST_Q14 : q << (18 - shift);
     return a < 0 ? -(int32_t)q : (int32_t)q;
 }
 
 /* Change of 1/depth per pixel, 14 fractional bits, along x and y. Differences are scaled down until
  * they have 13 bits: 1/depth has 16, so each sum of two products is below 2^30. Accuracy is only
- * needed for hiding, and a pixel's value is cut to 16 bits in the end.
+ * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on that
+ * its gradient must be cut would get depths far from its own: it is taken as flat.
  */
 static void depth_gradient(const raster_point_t p[3], area_t area, int32_t *along_x,
                            int32_t *along_y)
@@ -78,6 +81,8 @@ static void depth_gradient(const raster_point_t p[3], area_t area, int32_t *alon
         *along_x = ratio_q18(d1 * (y2 >> shift) - d2 * (y1 >> shift), size);
         *along_y = ratio_q18(d2 * (x1 >> shift) - d1 * (x2 >> shift), size);
     }
+    if (fix_abs(*along_x) >= STEEPEST_Q14 || fix_abs(*along_y) >= STEEPEST_Q14)
+        *along_x = *along_y = 0;
 }
 
 /* --- The pixels ------------------------------------------------------------------------------- */
