@@ -9,6 +9,7 @@ enum {
     HASH_MOST = 320,       /* the sum less its mean is cut to ± this, one time in 38 */
     HASH_LOG2_Q11 = 14712, /* log2 of the standard deviation that remains, 145.37, in 1/2048 */
     NOISE_SHIFT = 9,
+    LONGEST_CLASS = 48,    /* 32 steps: longer edges move like these */
     MOST_REACH_Q8 = 400000 /* what gravity leaves: see relief_reach */
 };
 
@@ -212,7 +213,7 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
 {
     for (int c = 0; c < YB_LENGTH_CLASSES; c++) {
         /* The class stands for the geometric middle of its lengths: log2 (L/2)^2 = c/2 + 1/4. */
-        int32_t length = (c * 1024 + 512 - 14 * 2048) >> 1;
+        int32_t length = (fix_min(c, LONGEST_CLASS) * 1024 + 512 - 14 * 2048) >> 1;
         uint32_t scale = 0;
         if (amplitude != INT32_MIN) {
             int32_t e = amplitude + ((hurst_q8 * length) >> 8);
