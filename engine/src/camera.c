@@ -188,10 +188,9 @@ void camera_place(const yb_frame_t *frame, const yb_point_t *point, camera_point
     place->up_q8 = point->up_q8;
     place->depth_q8 = point->depth_q8;
     if (frame->view.water_q8 > point->at.z_q8) {
-        /* At most 2^18 deep, lifted by at most 2^12: within 2^30. */
-        int32_t flood = frame->view.water_q8 - point->at.z_q8;
-        place->up_q8 += (flood * frame->lift_up_q9) >> 9;
-        place->depth_q8 -= (flood * frame->lift_back_q9) >> 9;
+        int64_t flood = frame->view.water_q8 - point->at.z_q8;
+        place->up_q8 += (int32_t)((flood * frame->lift_up_q9) >> 9);
+        place->depth_q8 -= (int32_t)((flood * frame->lift_back_q9) >> 9);
     }
 }
 
@@ -229,10 +228,10 @@ void camera_see(const yb_frame_t *frame, yb_point_t *point)
 
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)
 {
-    int32_t rise = z_q8 - point->at.z_q8;
+    int64_t rise = z_q8 - point->at.z_q8; /* below 2^20, the lift up to 2^12 */
     *to = *point;
     to->at.z_q8 = INT32_MAX; /* above any water: it stays where it is */
-    to->up_q8 += (rise * frame->lift_up_q9) >> 9;
-    to->depth_q8 -= (rise * frame->lift_back_q9) >> 9;
+    to->up_q8 += (int32_t)((rise * frame->lift_up_q9) >> 9);
+    to->depth_q8 -= (int32_t)((rise * frame->lift_back_q9) >> 9);
     camera_see(frame, to);
 }

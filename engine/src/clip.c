@@ -16,9 +16,11 @@ typedef struct {
 /* How far inside a plane a point is; any unit. Coordinates are below 2^24, factors 2^17: 2^42. */
 static int64_t inside_of(const yb_frame_t *frame, const camera_point_t *p, int plane)
 {
-    /* One screen size beyond each side: 3/2 from the middle, less a margin for rounding. */
-    int32_t wide = frame->screen.width * 24 - 32;
-    int32_t high = frame->screen.height * 24 - 32;
+    /* One screen size beyond each side: 3/2 from the middle, and two pixels more, so that whatever
+     * is within_reach is inside however it was rounded: else of two triangles with a common edge
+     * one would be cut and the other not. But never beyond |right|, |up| = 2 depth. */
+    int32_t wide = fix_min(frame->screen.width * 24 + 32, 2 * frame->focal_q4);
+    int32_t high = fix_min(frame->screen.height * 24 + 32, 2 * frame->focal_q4);
     switch (plane) {
     case 0:
         return p->depth_q8 - frame->near_q8;

@@ -1,4 +1,5 @@
-/* Leaves that stick out of the view: cut at the near distance and a screen size beyond the screen.
+/* Leaves that stick out of the view: cut at the near distance, a screen size beyond the screen and
+ * at the pyramid in which points can be projected.
  *
  * Nearly all leaves need none of this. A cut point is always computed from the end inside to the
  * end outside, so two triangles that share an edge cut it in the same place.

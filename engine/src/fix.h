@@ -30,8 +30,8 @@ static inline int32_t fix_clamp(int32_t a, int32_t low, int32_t high)
     return a < low ? low : a > high ? high : a;
 }
 
-/* Length of a plan vector, never below the truth and at most 6.8 % above: max + 3/8 min.
- * |dx|, |dy| < 2^28.
+/* Length of a plan vector, from 2.8 % below the truth to 6.8 % above it: max + 3/8 min, rounded
+ * down. |dx|, |dy| < 2^28.
  */
 static inline int32_t fix_length(int32_t dx, int32_t dy)
 {
@@ -57,7 +57,7 @@ static inline int fix_log2_floor(uint32_t a)
 #endif
 }
 
-/* Base-2 logarithm with 11 fractional bits, a > 0; error below 2^-11. */
+/* Base-2 logarithm with 11 fractional bits, a > 0; error below 1.2 / 2^11. */
 int32_t fix_log2_q11(uint64_t a);
 
 /* 2^(e/2048), rounded, at most UINT32_MAX; relative error below 2^-11 where the result is large. */

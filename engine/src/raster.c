@@ -30,7 +30,11 @@ void raster_clear(const raster_t *raster, uint16_t pixel)
 
 /* --- The plane of 1/depth --------------------------------------------------------------------- */
 
-/* a * 2^18 / b, for |a| < 2^30 and b > 0, cut to ±2^30. */
+enum {
+    STEEPEST_Q14 = 1 << 30
+};
+
+/* a * 2^18 / b, for |a| < 2^30 and b > 0, cut to ±STEEPEST_Q14. */
 static int32_t ratio_q18(int32_t a, int32_t b)
 {
     uint32_t size = (uint32_t)fix_abs(a);
@@ -41,13 +45,14 @@ static int32_t ratio_q18(int32_t a, int32_t b)
     if (shift > 18)
         q >>= shift - 18;
     else
-        q = q >= 1u << (12 + shift) ? 1u << 30 : q << (18 - shift);
+        q = q >= 1u << (12 + shift) ? STEEPEST_Q14 : q << (18 - shift);
     return a < 0 ? -(int32_t)q : (int32_t)q;
 }
 
 /* Change of 1/depth per pixel, 14 fractional bits, along x and y. Differences are scaled down until
  * they have 13 bits: 1/depth has 16, so each sum of two products is below 2^30. Accuracy is only
- * needed for hiding, and a pixel's value is cut to 16 bits in the end.
+ * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on
+ * that its gradient must be cut would get depths far from its own: it is taken as flat.
  */
 static void depth_gradient(const raster_point_t p[3], raster_area_t area, int32_t *along_x,
                            int32_t *along_y)
@@ -68,6 +73,8 @@ static void depth_gradient(const raster_point_t p[3], raster_area_t area, int32_
         *along_x = ratio_q18(d1 * (y2 >> shift) - d2 * (y1 >> shift), size);
         *along_y = ratio_q18(d2 * (x1 >> shift) - d1 * (x2 >> shift), size);
     }
+    if (fix_abs(*along_x) >= STEEPEST_Q14 || fix_abs(*along_y) >= STEEPEST_Q14)
+        *along_x = *along_y = 0;
 }
 
 /* --- The pixels ------------------------------------------------------------------------------- */

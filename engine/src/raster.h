@@ -4,9 +4,9 @@
 
 #include <yamabiko/yamabiko.h>
 
-/* Twice an area in 1/256 square pixel. Corners lie within a screen size of the screen, so
- * differences are at most 3 * 16 * YB_MAX_SIDE: 24576 for 512 pixels, and a product of two, twice,
- * 2 * 24576^2 < 2^31.
+/* Twice an area in 1/256 square pixel. Corners lie within a screen size and a little of the screen,
+ * so differences are at most 3 * 16 * YB_MAX_SIDE + 80: 24656 for 512 pixels, and a product of two,
+ * twice, 2 * 24656^2 < 2^31.
  */
 #if YB_MAX_SIDE <= 512
 typedef int32_t raster_area_t;

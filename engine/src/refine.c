@@ -230,6 +230,8 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
     level->planes = REFINE_ALL_PLANES;
     bool down = open_level(frame, view, raster, level);
     for (;;) {
+        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
+            return; /* counted enough: too many */
         const uint8_t *child = split_child[level->pattern][level->child & 3];
         if (!down || level->child == SPLIT_CHILDREN || *child == SPLIT_END) {
             if (level == frame->level)

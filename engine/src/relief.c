@@ -8,7 +8,8 @@ enum {
     HASH_MEAN = 510,       /* of the sum of four bytes */
     HASH_MOST = 320,       /* the sum less its mean is cut to ± this, one time in 38 */
     HASH_LOG2_Q11 = 14712, /* log2 of the standard deviation that remains, 145.37, in 1/2048 */
-    NOISE_SHIFT = 9
+    NOISE_SHIFT = 9,
+    MOST_REACH_Q8 = 400000 /* what gravity leaves: see relief_reach */
 };
 
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
@@ -93,6 +94,11 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
 {
     if (!map->detail || bound->longest < shortest)
         return bound->bulge_q8;
+    /* A reach too large for its table is one that gravity limits: the noise of an edge is at most
+     * its length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L.
+     */
+    if (map->reach_q8[bound->longest] == UINT16_MAX)
+        return bound->bulge_q8 + MOST_REACH_Q8;
     /* Classes of the halved edges go down by four; those below the shortest do not count. */
     int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
     return bound->bulge_q8 + map->reach_q8[bound->longest] -
@@ -178,8 +184,9 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
                                     : (uint64_t)fix_exp2_q11(term) << 8;
         }
     }
-    sum /= edges;
-    return sum == 0 ? INT32_MIN : fix_log2_q11(sum) - 8 * 2048;
+    if (edges == 0 || sum < edges)
+        return INT32_MIN;
+    return fix_log2_q11(sum / edges) - 8 * 2048;
 }
 
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an

@@ -125,7 +125,7 @@ static bool make_region(GEOSContextHandle_t geos, yb_region_t *region, const yb_
 {
     const size_t room = line->count + (line->closed ? 0 : FRAME_POINTS);
     *region = (yb_region_t){.count = line->count, .boundary = line->count, .closed = line->closed};
-    region->point = malloc(room * sizeof(*region->point));
+    region->point = calloc(room, sizeof(*region->point));
     if (region->point == NULL)
         return false;
     for (size_t i = 0; i < line->count; i++)

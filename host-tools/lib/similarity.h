@@ -12,6 +12,9 @@
 /* Equal steps of the original on which the signs of curvature are compared. */
 #define YB_SIMILARITY_STEPS 16
 
+/* The larger part of the frame beside an open line is matched only by at least this overlap. */
+#define YB_SIMILARITY_LARGER_PART 0.25
+
 typedef struct {
     double area;       /* a: intersection over union of the two regions */
     double distance;   /* d: 1 - min(1, Hausdorff distance / radius of a disc of equal area) */

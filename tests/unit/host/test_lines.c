@@ -120,16 +120,19 @@ static void test_pieces_are_joined(void **state)
     yb_error_t error;
     const char *path = scratch_path("pieces.geojson");
     collection(
-        path, LINE("elev", "50", "[[0,100],[300,120],[500,100]]") "," LINE(
-                  "elev",
-                  "50", "[[500,100],[800,150],[1000,100]]") "," LINE("elev", "90",
-                                                                     "[[1000,600],[500,500],[0,600]"
-                                                                     "]") "," LINE("elev", "70",
-                                                                                   "[[400,300],["
-                                                                                   "500,320],[600,"
-                                                                                   "300]]") "," LINE("elev",
-                                                                                                     "70",
-                                                                                                     "[[0,0],[1000,0]]"));
+        path,
+        LINE("elev", "50", "[[0,100],[300,120],[500,100]]") "," LINE(
+            "elev", "50",
+            "[[500,100],[800,150],[1000,100]]") "," LINE("elev", "90",
+                                                         "[[1000,600],[500,500],[0,600]"
+                                                         "]") "," LINE("elev", "70",
+                                                                       "[[400,300],["
+                                                                       "500,320],[600,"
+                                                                       "300]]") "," LINE("elev",
+                                                                                         "70",
+                                                                                         "[[0,0],["
+                                                                                         "1000,0]"
+                                                                                         "]"));
     yb_lines_t *lines = read_lines(path, NULL, &error);
     assert_non_null(lines);
     assert_int_equal(lines->dropped, 1); /* the one that ends inside at both ends */

@@ -12,7 +12,7 @@
 #include <gdal.h>
 #include <ogr_api.h>
 
-static char directory[] = "/tmp/yamabiko-test-XXXXXX";
+static char directory[] = "yamabiko-test-XXXXXX";
 static char path[sizeof(directory) + 64];
 
 static int make_directory(void **state)

@@ -155,6 +155,21 @@ static void a_missing_line_has_k_0(void **state)
     assert_true(similarity.original == YB_NO_LINE);
 }
 
+/* All of the frame but a strip is no original of a small circle; of a large one it is. */
+static void the_larger_part_must_fit(void **state)
+{
+    (void)state;
+    shape_t polygon, line;
+    circle(&polygon, 50, 50, 20, false);
+    level_line(&line, 1, false);
+    yb_similarity_t similarity = measure(&polygon, one(&line), one(&line));
+    assert_true(similarity.k == 0);
+    assert_true(similarity.original == YB_NO_LINE);
+    circle(&polygon, 50, 51, 45, false);
+    similarity = measure(&polygon, one(&line), one(&line));
+    assert_near(similarity.k, 1);
+}
+
 static void open_lines_are_closed_along_the_frame(void **state)
 {
     (void)state;
@@ -227,6 +242,7 @@ int main(void)
         cmocka_unit_test(far_apart_is_not_below_0),
         cmocka_unit_test(dents_cost_curvature),
         cmocka_unit_test(a_missing_line_has_k_0),
+        cmocka_unit_test(the_larger_part_must_fit),
         cmocka_unit_test(open_lines_are_closed_along_the_frame),
         cmocka_unit_test(touching_the_frame_costs_little),
         cmocka_unit_test(the_largest_overlap_is_chosen),

@@ -2,6 +2,7 @@
 #include "codes.h"
 #include "view_options.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -13,10 +14,10 @@ static const struct option long_options[] = {YB_VIEW_LONG_OPTIONS, {0}};
 /* Reads words, separated by blanks; false with a sentence for those that are wrong. */
 static bool parse(const char *words, yb_view_options_t *options, yb_error_t *error)
 {
-    char text[256] = "render ";
+    char text[256];
     char *argv[MOST_WORDS + 1] = {0};
     int argc = 0;
-    strcat(text, words);
+    snprintf(text, sizeof(text), "render %s", words);
     for (char *word = strtok(text, " "); word != NULL; word = strtok(NULL, " "))
         argv[argc++] = word;
     *options = yb_view_options_default();

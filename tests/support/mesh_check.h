@@ -1,0 +1,33 @@
+/* What a mesh must be, checked without the engine's own arithmetic. Each check returns NULL or what
+ * is wrong.
+ */
+#ifndef TEST_MESH_CHECK_H
+#define TEST_MESH_CHECK_H
+
+#include <yamabiko/yamabiko.h>
+
+#include "plan.h"
+
+/* The vertices are the plan's points and corners, with their heights. */
+const char *mesh_check_vertices(const yb_map_t *map, const plan_t *plan);
+
+/* The triangles tile the frame: counter-clockwise, areas add up, edges pair off, Euler's count,
+ * and every edge of a contour is an edge of the mesh.
+ */
+const char *mesh_check_tiling(const yb_map_t *map, const plan_t *plan);
+
+/* No edge but a contour's has a vertex inside the circle of its triangle across it; of four on one
+ * circle the one with the smallest index has the diagonal.
+ */
+const char *mesh_check_delaunay(const yb_map_t *map, const plan_t *plan);
+
+/* The regions on both sides of all contours, by point in polygon; their adjacency is a tree. */
+const char *mesh_check_regions(const yb_map_t *map, const yb_load_t *load, const plan_t *plan);
+
+/* All of these. */
+const char *mesh_check(const yb_map_t *map, const yb_load_t *load, const plan_t *plan);
+
+/* Hash of vertices and triangles, whatever the triangles' order and first corner. */
+uint64_t mesh_hash(const yb_map_t *map);
+
+#endif

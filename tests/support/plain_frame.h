@@ -1,0 +1,27 @@
+/* A frame drawn the plain way: by recursion, nothing dropped, nothing binned; and random views. */
+#ifndef TEST_PLAIN_FRAME_H
+#define TEST_PLAIN_FRAME_H
+
+#include <yamabiko/yamabiko.h>
+
+#include "rng.h"
+
+/* Called for each leaf of a frame, in the order in which the engine draws those it does not drop.
+ */
+typedef void (*plain_leaf_fn)(void *context, const yb_point_t *const corner[3]);
+
+/* Hands out the leaves of a frame that has begun; returns how many. */
+uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context);
+
+/* Draws all rows of a frame that has begun. */
+void plain_frame(yb_frame_t *frame, const yb_band_t *band);
+
+/* A view of a map from anywhere that makes sense: round it, in it, below it, far away, at its side,
+ * on foot, straight down or up; with and without water, walls and exaggeration.
+ */
+void random_view(yb_view_t *view, const yb_map_t *map, rng_t *rng);
+
+/* A view that makes none: every field anything its type can hold, or at an extreme. */
+void wild_view(yb_view_t *view, rng_t *rng);
+
+#endif

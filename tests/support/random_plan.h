@@ -1,0 +1,21 @@
+/* Random maps of every awkward kind. */
+#ifndef TEST_RANDOM_PLAN_H
+#define TEST_RANDOM_PLAN_H
+
+#include "plan.h"
+#include "rng.h"
+
+/* A legal, codable plan: nested blobs, bows, canyons, combs, spirals, open lines, spot heights
+ * scattered, clustered, in a row, on a circle or a grid; sometimes nearly full.
+ */
+void random_plan(plan_t *plan, rng_t *rng);
+
+/* A codable plan whose points and lines may do anything: cross, touch, repeat. */
+void random_mess(plan_t *plan, rng_t *rng);
+
+/* Shapes, each added only if legal and codable; true if it was. */
+bool random_open_line(plan_t *plan, rng_t *rng, int height);
+bool shape_comb(plan_t *plan, int x, int y, int teeth, int pitch, int length, int height);
+bool shape_blob(plan_t *plan, rng_t *rng, int x, int y, int radius, int height);
+
+#endif

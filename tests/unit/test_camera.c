@@ -1,0 +1,271 @@
+/* The camera: where things are seen, against double; and any view at all without harm. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "camera.h"
+#include "check.h"
+#include "plain_frame.h"
+#include "random_plan.h"
+#include "refine.h"
+
+static yb_map_t map;
+static yb_load_t load;
+static yb_frame_t frame;
+
+static void load_plan(const plan_t *plan)
+{
+    uint8_t bytes[PLAN_MAX_BYTES];
+    assert_int_equal(yb_map_load(&map, &load, bytes, plan_write(plan, bytes)), YB_OK);
+}
+
+/* A bare frame: vertices 0 to 3 are SW, SE, NE, NW. */
+static void load_frame(int east, int north, const int height[4])
+{
+    plan_t plan;
+    plan_init(&plan, east, north);
+    for (int k = 0; k < 4; k++)
+        plan.corner_height[k] = height[k];
+    load_plan(&plan);
+}
+
+static const yb_screen_t screen = {128, 64, YB_GREY4};
+
+static void from_the_south_east_is_on_the_right(void **state)
+{
+    (void)state;
+    const int height[4] = {0, 0, 50, 50};
+    load_frame(255, 255, height);
+    yb_view_t view;
+    yb_view_init(&view, &map); /* azimuth 0: the eye stands in the south */
+    yb_frame_begin(&frame, &map, &view, &screen);
+    assert_true(view.eye_q8[1] < 0);
+    assert_true(view.eye_q8[2] > 0);
+    assert_true(frame.seen[1].right_q8 > 0 && frame.seen[2].right_q8 > 0);
+    assert_true(frame.seen[0].right_q8 < 0 && frame.seen[3].right_q8 < 0);
+    assert_true(frame.seen[2].up_q8 > frame.seen[1].up_q8);
+    assert_true(frame.seen[2].depth_q8 > frame.seen[1].depth_q8);
+    yb_point_t corner[4];
+    for (int i = 0; i < 4; i++) {
+        refine_root(&frame, (yb_index_t)i, &corner[i]);
+        assert_true(corner[i].visible);
+    }
+    assert_true(corner[1].x_q4 > 64 * 16 && corner[0].x_q4 < 64 * 16);
+    assert_true(corner[2].y_q4 < corner[1].y_q4);
+    assert_true(corner[2].near < corner[1].near);
+}
+
+static void higher_is_further_up(void **state)
+{
+    (void)state;
+    for (int azimuth = 0; azimuth < 360; azimuth += 15) {
+        int32_t before = INT32_MIN;
+        for (int z = 0; z < 100; z += 10) {
+            const int height[4] = {0, z, 0, 100};
+            load_frame(200, 200, height);
+            yb_view_t view;
+            yb_view_init(&view, &map);
+            yb_view_orbit(&view, &map, YB_DEGREES(azimuth), YB_DEGREES(20), 400);
+            yb_frame_begin(&frame, &map, &view, &screen);
+            assert_true(frame.seen[1].up_q8 > before);
+            before = frame.seen[1].up_q8;
+        }
+    }
+}
+
+static void straight_down_the_azimuth_is_up(void **state)
+{
+    (void)state;
+    const int height[4] = {0, 0, 0, 0};
+    load_frame(200, 200, height);
+    for (int quarter = 0; quarter < 4; quarter++) {
+        for (int how = 0; how < 2; how++) {
+            yb_view_t view;
+            yb_view_init(&view, &map);
+            if (how == 0) {
+                yb_view_orbit(&view, &map, (uint16_t)(quarter * 0x4000), YB_DEGREES(90), 400);
+            } else { /* up from below: what lies towards the azimuth is at the bottom */
+                view.azimuth_bam = (uint16_t)(quarter * 0x4000);
+                view.eye_q8[0] = view.look_q8[0] = 100 * 256;
+                view.eye_q8[1] = view.look_q8[1] = 100 * 256;
+                view.eye_q8[2] = -30000;
+                view.look_q8[2] = 0;
+            }
+            yb_frame_begin(&frame, &map, &view, &screen);
+            /* Clockwise from the azimuth: north (NW, NE), east, south, west. */
+            static const int top[4][2] = {{3, 2}, {2, 1}, {1, 0}, {0, 3}};
+            int sign = how == 0 ? 1 : -1;
+            assert_true(sign * frame.seen[top[quarter][0]].up_q8 > 20000);
+            assert_true(sign * frame.seen[top[quarter][1]].up_q8 > 20000);
+            assert_true(frame.seen[top[quarter][0]].right_q8 < -20000);
+            assert_true(frame.seen[top[quarter][1]].right_q8 > 20000);
+        }
+    }
+}
+
+/* The paper's matrix (DIGEST 3) in double. */
+typedef struct {
+    double right, up, depth, offset;
+} seen_t;
+
+static void see(const yb_view_t *view, const yb_vertex_t *v, seen_t *seen)
+{
+    double d[3];
+    double x[3] = {v->x_q8, v->y_q8, v->z_q8 * (view->exaggerate_q8 / 256.0)};
+    for (int i = 0; i < 3; i++) {
+        d[i] = (double)view->eye_q8[i] - view->look_q8[i];
+        x[i] -= view->look_q8[i];
+    }
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    double a = asin(d[2] / length);
+    double b = atan2(d[1], d[0]);
+    double q1 = cos(a) * cos(b) * x[0] + cos(a) * sin(b) * x[1] + sin(a) * x[2];
+    seen->right = -sin(b) * x[0] + cos(b) * x[1];
+    seen->up = -sin(a) * cos(b) * x[0] - sin(a) * sin(b) * x[1] + cos(a) * x[2];
+    seen->depth = length - q1;
+    seen->offset = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+}
+
+static void positions_are_the_papers(void **state)
+{
+    (void)state;
+    rng_t rng = {51};
+    double worst = 0;
+    double worst_q4 = 0;
+    int on_screen = 0;
+    for (int round = 0; round < 3000; round++) {
+        plan_t plan;
+        if (round % 20 == 0) {
+            random_plan(&plan, &rng);
+            load_plan(&plan);
+        }
+        yb_view_t view;
+        random_view(&view, &map, &rng);
+        view.water_q8 = YB_NO_WATER;
+        if (view.eye_q8[0] == view.look_q8[0] && view.eye_q8[1] == view.look_q8[1])
+            continue;
+        yb_frame_begin(&frame, &map, &view, &screen);
+        for (int i = 0; i < map.vertex_count; i++) {
+            seen_t truth;
+            see(&view, &map.vertex[i], &truth);
+            /* Fourteen bits of sine and cosine, twice rounded, three terms. */
+            double most = 4 + truth.offset * 4 / 16384;
+            double off = fmax(fabs(frame.seen[i].right_q8 - truth.right),
+                              fmax(fabs(frame.seen[i].up_q8 - truth.up),
+                                   fabs(frame.seen[i].depth_q8 - truth.depth)));
+            worst = fmax(worst, off / most);
+            yb_point_t point;
+            refine_root(&frame, (yb_index_t)i, &point);
+            double x = 64 * 16 + truth.right / truth.depth * frame.focal_q4;
+            double y = 32 * 16 - truth.up / truth.depth * frame.focal_q4;
+            if (!point.visible || x < 0 || x > 128 * 16 || y < 0 || y > 64 * 16)
+                continue;
+            on_screen++;
+            double spread = 3 * most / truth.depth * frame.focal_q4 + 2;
+            worst_q4 = fmax(worst_q4, fmax(fabs(point.x_q4 - x), fabs(point.y_q4 - y)) / spread);
+            double near = 65536.0 * frame.near_q8 / truth.depth;
+            assert_true(fabs(fmin(near, 65535) - point.near) <
+                        10 + near * (2 * most / truth.depth + 0.001));
+        }
+    }
+    print_message("%d points on the screen; view space within %.2f, screen within %.2f of bounds\n",
+                  on_screen, worst, worst_q4);
+    assert_true(on_screen > 10000);
+    assert_true(worst <= 1);
+    assert_true(worst_q4 <= 1);
+}
+
+static void known_projections(void **state)
+{
+    (void)state;
+    /* Looking north along the ground from 100 steps south of a frame 100 wide: with 50 degrees,
+     * focal length 4392/4096 of 128 pixels = 137.25, the near corners are 50/100 focal lengths
+     * off the middle. */
+    const int height[4] = {0, 0, 0, 0};
+    load_frame(100, 100, height);
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    const int32_t eye[3] = {50 * 256, -100 * 256, 0};
+    const int32_t look[3] = {50 * 256, 0, 0};
+    memcpy(view.eye_q8, eye, sizeof eye);
+    memcpy(view.look_q8, look, sizeof look);
+    yb_frame_begin(&frame, &map, &view, &screen);
+    static const double x[4] = {64 - 68.625, 64 + 68.625, 64 + 34.3125, 64 - 34.3125};
+    for (int i = 0; i < 4; i++) {
+        yb_point_t point;
+        refine_root(&frame, (yb_index_t)i, &point);
+        assert_true(fabs(point.x_q4 / 16.0 - x[i]) <= 0.125);
+        assert_int_equal(point.y_q4, 32 * 16);
+    }
+}
+
+static void orbits_keep_their_distance(void **state)
+{
+    (void)state;
+    rng_t rng = {52};
+    const int height[4] = {0, 60, 20, 100};
+    load_frame(240, 100, height);
+    for (int round = 0; round < 2000; round++) {
+        yb_view_t view;
+        yb_view_init(&view, &map);
+        view.exaggerate_q8 = (uint16_t)rng_range(&rng, 64, 1024);
+        uint16_t azimuth = (uint16_t)rng_range(&rng, 0, 65535);
+        uint16_t elevation = (uint16_t)rng_range(&rng, 0, 0x4000);
+        uint16_t distance = (uint16_t)rng_range(&rng, 50, 3000);
+        yb_view_orbit(&view, &map, azimuth, elevation, distance);
+        double d[3];
+        for (int i = 0; i < 3; i++)
+            d[i] = (double)view.eye_q8[i] - view.look_q8[i];
+        double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        double truth = 240.0 * distance;
+        assert_true(fabs(length - truth) < 3 + truth / 4000);
+        assert_int_equal(view.look_q8[0], 120 * 256);
+        assert_int_equal(view.look_q8[1], 50 * 256);
+        assert_int_equal(view.look_q8[2], 50 * view.exaggerate_q8);
+        double turned = atan2(-d[0], -d[1]) * 65536 / 6.283185307179586;
+        if (elevation < 0x3f00)
+            assert_true(fabs(remainder(turned - azimuth, 65536)) < 20 + 4e5 / length);
+    }
+}
+
+static void any_view_at_all(void **state)
+{
+    (void)state;
+    rng_t rng = {53};
+    static uint16_t depth[64 * 48];
+    static uint8_t pixels[64 * 48 * 2];
+    for (int round = 0; round < 2000; round++) {
+        plan_t plan;
+        if (round % 40 == 0) {
+            random_plan(&plan, &rng);
+            if (rng_one_in(&rng, 4)) {
+                plan.gain = 255;
+                plan.unit = 0xfff;
+                plan.unit = plan_valid(&plan) ? plan.unit : 64;
+            }
+            load_plan(&plan);
+        }
+        yb_view_t view;
+        wild_view(&view, &rng);
+        yb_screen_t page = {(uint16_t)(2 * rng_range(&rng, 1, 32)),
+                            (uint16_t)rng_range(&rng, 1, 48),
+                            rng_one_in(&rng, 2) ? YB_GREY4 : YB_RGB565};
+        yb_frame_begin(&frame, &map, &view, &page);
+        yb_band_t band = {0, page.height, depth, pixels, yb_screen_pitch(&page)};
+        yb_frame_band(&frame, &band);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(from_the_south_east_is_on_the_right),
+        cmocka_unit_test(higher_is_further_up),
+        cmocka_unit_test(straight_down_the_azimuth_is_up),
+        cmocka_unit_test(positions_are_the_papers),
+        cmocka_unit_test(known_projections),
+        cmocka_unit_test(orbits_keep_their_distance),
+        cmocka_unit_test(any_view_at_all),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,353 @@
+/* The rasteriser: every pixel once, none outside, the nearest one wins. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "fix.h"
+#include "raster.h"
+#include "rng.h"
+
+enum {
+    WIDTH = 64,
+    HEIGHT = 48,
+    GUARD = 64,
+    PITCH = WIDTH * 2 + 6
+};
+
+static uint16_t depth[WIDTH * HEIGHT];
+static uint8_t pixels[GUARD + PITCH * HEIGHT + GUARD];
+
+typedef struct {
+    yb_screen_t screen;
+    yb_band_t band;
+    raster_t raster;
+} page_t;
+
+static void open_page(page_t *page, yb_format_t format, int y, int rows)
+{
+    page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
+    page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, depth, pixels + GUARD, PITCH};
+    page->raster = (raster_t){&page->screen, &page->band, y, y + rows};
+    memset(pixels, 0xa5, sizeof pixels);
+    raster_clear(&page->raster, 0);
+}
+
+static uint16_t pixel_at(const page_t *page, int x, int line)
+{
+    const uint8_t *row = page->band.pixels + (size_t)line * page->band.pitch;
+    if (page->screen.format == YB_RGB565)
+        return (uint16_t)(row[2 * x] << 8 | row[2 * x + 1]);
+    return x % 2 == 0 ? row[x / 2] >> 4 : row[x / 2] & 15;
+}
+
+/* Nothing but the band's own pixels may change: guards, the rest of each row, rows below. */
+static void check_guards(const page_t *page)
+{
+    size_t used = yb_screen_pitch(&page->screen);
+    for (size_t i = 0; i < sizeof pixels; i++) {
+        bool inside =
+            i >= GUARD && (i - GUARD) / PITCH < page->band.rows && (i - GUARD) % PITCH < used;
+        assert_true(inside || pixels[i] == 0xa5);
+    }
+}
+
+/* --- A mesh over the screen ------------------------------------------------------------------- */
+
+enum {
+    MOST = 400
+};
+
+typedef struct {
+    raster_point_t point[MOST];
+    int triangle[MOST][3];
+    int points, triangles;
+} mesh_t;
+
+static int64_t twice_area(const raster_point_t *a, const raster_point_t *b, const raster_point_t *c)
+{
+    return (int64_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
+           (int64_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4);
+}
+
+/* Splits triangles at random places inside: slivers and all, but without cracks. Counter-clockwise
+ * to the eye is clockwise in these coordinates.
+ */
+static void random_mesh(mesh_t *mesh, rng_t *rng, int splits)
+{
+    static const raster_point_t frame[4] = {{-WIDTH * 16, -HEIGHT * 16, 100},
+                                            {2 * WIDTH * 16, -HEIGHT * 16, 100},
+                                            {2 * WIDTH * 16, 2 * HEIGHT * 16, 100},
+                                            {-WIDTH * 16, 2 * HEIGHT * 16, 100}};
+    memcpy(mesh->point, frame, sizeof frame);
+    mesh->points = 4;
+    const int start[2][3] = {{0, 2, 1}, {0, 3, 2}};
+    memcpy(mesh->triangle, start, sizeof start);
+    mesh->triangles = 2;
+    for (int i = 0; i < splits && mesh->triangles + 2 <= MOST; i++) {
+        raster_point_t p = {rng_range(rng, 0, WIDTH * 16), rng_range(rng, 0, HEIGHT * 16), 100};
+        if (rng_one_in(rng, 2)) { /* a pixel's centre */
+            p.x_q4 = p.x_q4 / 16 * 16 + 8;
+            p.y_q4 = p.y_q4 / 16 * 16 + 8;
+        }
+        for (int t = 0; t < mesh->triangles; t++) {
+            int *v = mesh->triangle[t];
+            const raster_point_t *q[3] = {&mesh->point[v[0]], &mesh->point[v[1]],
+                                          &mesh->point[v[2]]};
+            if (twice_area(q[0], q[1], &p) >= 0 || twice_area(q[1], q[2], &p) >= 0 ||
+                twice_area(q[2], q[0], &p) >= 0)
+                continue;
+            int n = mesh->points++;
+            mesh->point[n] = p;
+            const int second[3] = {v[1], v[2], n};
+            const int third[3] = {v[2], v[0], n};
+            v[2] = n;
+            memcpy(mesh->triangle[mesh->triangles++], second, sizeof second);
+            memcpy(mesh->triangle[mesh->triangles++], third, sizeof third);
+            break;
+        }
+    }
+}
+
+static void each_pixel_is_drawn_once(void **state)
+{
+    (void)state;
+    rng_t rng = {41};
+    for (int round = 0; round < 120; round++) {
+        static mesh_t mesh;
+        random_mesh(&mesh, &rng, 3 + round);
+        page_t page;
+        static int count[WIDTH * HEIGHT];
+        memset(count, 0, sizeof count);
+        for (int t = 0; t < mesh.triangles; t++) {
+            open_page(&page, round % 2 == 0 ? YB_RGB565 : YB_GREY4, 0, HEIGHT);
+            raster_point_t corner[3];
+            int first = rng_range(&rng, 0, 2);
+            for (int i = 0; i < 3; i++)
+                corner[i] = mesh.point[mesh.triangle[t][(i + first) % 3]];
+            assert_true(raster_triangle(&page.raster, corner, 9));
+            for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                uint16_t pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
+                assert_true(pixel == 0 || pixel == 9);
+                count[i] += pixel == 9;
+            }
+            check_guards(&page);
+        }
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            CHECK(count[i] == 1, "round %d: pixel (%d, %d) is drawn %d times", round, i % WIDTH,
+                  i / WIDTH, count[i]);
+    }
+}
+
+static void bands_are_parts_of_the_whole(void **state)
+{
+    (void)state;
+    rng_t rng = {42};
+    for (int round = 0; round < 300; round++) {
+        raster_point_t corner[3];
+        for (int i = 0; i < 3; i++) {
+            corner[i].x_q4 = rng_range(&rng, -WIDTH * 16, 2 * WIDTH * 16);
+            corner[i].y_q4 = rng_range(&rng, -HEIGHT * 16, 2 * HEIGHT * 16);
+            corner[i].near = rng_range(&rng, 1, 65535);
+        }
+        yb_format_t format = round % 2 == 0 ? YB_RGB565 : YB_GREY4;
+        page_t page;
+        open_page(&page, format, 0, HEIGHT);
+        bool front = raster_triangle(&page.raster, corner, 5);
+        static uint16_t whole[WIDTH * HEIGHT];
+        static uint16_t whole_depth[WIDTH * HEIGHT];
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            whole[i] = pixel_at(&page, i % WIDTH, i / WIDTH);
+        memcpy(whole_depth, depth, sizeof depth);
+        int y = rng_range(&rng, 0, HEIGHT - 1);
+        int rows = rng_range(&rng, 1, HEIGHT - y);
+        open_page(&page, format, y, rows);
+        assert_int_equal(raster_triangle(&page.raster, corner, 5), front);
+        for (int i = 0; i < WIDTH * rows; i++)
+            assert_int_equal(pixel_at(&page, i % WIDTH, i / WIDTH), whole[i + y * WIDTH]);
+        assert_memory_equal(depth, whole_depth + y * WIDTH, (size_t)(WIDTH * rows) * 2);
+        check_guards(&page);
+    }
+}
+
+static void back_faces_and_flat_ones_draw_nothing(void **state)
+{
+    (void)state;
+    static const raster_point_t back[3] = {{0, 0, 9}, {500, 0, 9}, {0, 500, 9}};
+    static const raster_point_t front[3] = {{0, 0, 9}, {0, 500, 9}, {500, 0, 9}};
+    static const raster_point_t flat[3] = {{0, 0, 9}, {100, 100, 9}, {500, 500, 9}};
+    static const raster_point_t away[3] = {{-500, 0, 9}, {-500, 500, 9}, {-100, 0, 9}};
+    page_t page;
+    open_page(&page, YB_RGB565, 0, HEIGHT);
+    assert_false(raster_triangle(&page.raster, back, 7));
+    assert_false(raster_triangle(&page.raster, flat, 7));
+    assert_true(raster_triangle(&page.raster, away, 7));
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        assert_int_equal(pixel_at(&page, i % WIDTH, i / WIDTH) | depth[i], 0);
+    assert_true(raster_triangle(&page.raster, front, 7));
+    assert_int_equal(pixel_at(&page, 0, 0), 7);
+}
+
+/* The centre of pixel (x, y) lies at 16 x + 8, 16 y + 8; left and top edges belong to a triangle.
+ */
+static void edges_through_centres(void **state)
+{
+    (void)state;
+    static const raster_point_t upper[3] = {{8, 8, 9}, {8, 72, 9}, {72, 8, 9}};
+    page_t page;
+    open_page(&page, YB_GREY4, 0, HEIGHT);
+    assert_true(raster_triangle(&page.raster, upper, 7));
+    for (int y = 0; y < 6; y++) {
+        for (int x = 0; x < 6; x++)
+            assert_int_equal(pixel_at(&page, x, y), x + y < 4 ? 7 : 0);
+    }
+}
+
+static void the_nearest_wins_in_any_order(void **state)
+{
+    (void)state;
+    rng_t rng = {43};
+    for (int round = 0; round < 200; round++) {
+        enum {
+            COUNT = 6
+        };
+        raster_point_t corner[COUNT][3];
+        page_t page;
+        static uint16_t first[WIDTH * HEIGHT];
+        for (int i = 0; i < COUNT; i++) {
+            do {
+                for (int k = 0; k < 3; k++) {
+                    corner[i][k].x_q4 = rng_range(&rng, 0, WIDTH * 16);
+                    corner[i][k].y_q4 = rng_range(&rng, 0, HEIGHT * 16);
+                    corner[i][k].near = 1000 + 9000 * i; /* one behind another */
+                }
+            } while (twice_area(&corner[i][0], &corner[i][1], &corner[i][2]) >= 0);
+        }
+        for (int pass = 0; pass < 3; pass++) {
+            open_page(&page, YB_GREY4, 0, HEIGHT);
+            for (int i = 0; i < COUNT; i++) {
+                int which = pass == 0 ? i : pass == 1 ? COUNT - 1 - i : (i * 5 + 2) % COUNT;
+                assert_true(raster_triangle(&page.raster, corner[which], (uint16_t)(which + 1)));
+            }
+            for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                uint16_t pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
+                if (pass == 0)
+                    first[i] = pixel;
+                assert_int_equal(pixel, first[i]);
+                assert_true(pixel == 0 ? depth[i] == 0 : depth[i] == 1000 + 9000 * (pixel - 1));
+            }
+        }
+    }
+}
+
+/* The corners of a random triangle that shows its front, within `size` of a place. */
+static void random_triangle(rng_t *rng, int size, int depths, raster_point_t p[3])
+{
+    do {
+        int x = rng_range(rng, 0, WIDTH * 16);
+        int y = rng_range(rng, 0, HEIGHT * 16);
+        int near = rng_range(rng, 1, 65535 - depths);
+        for (int k = 0; k < 3; k++) {
+            p[k].x_q4 = fix_clamp(rng_range(rng, x - size, x + size), -WIDTH * 16, 2 * WIDTH * 16);
+            p[k].y_q4 =
+                fix_clamp(rng_range(rng, y - size, y + size), -HEIGHT * 16, 2 * HEIGHT * 16);
+            p[k].near = near + rng_range(rng, 0, depths);
+        }
+    } while (twice_area(&p[0], &p[1], &p[2]) >= 0);
+}
+
+/* Least height of a triangle, in pixels. */
+static double thickness(const raster_point_t p[3])
+{
+    double longest = 0;
+    for (int k = 0; k < 3; k++) {
+        const raster_point_t *q = &p[(k + 1) % 3];
+        longest = fmax(longest, hypot(q->x_q4 - p[k].x_q4, q->y_q4 - p[k].y_q4));
+    }
+    return -(double)twice_area(&p[0], &p[1], &p[2]) / longest / 16;
+}
+
+/* Largest difference between the depths drawn and the plane through the corners. */
+static double depth_error(const raster_point_t p[3])
+{
+    page_t page;
+    open_page(&page, YB_GREY4, 0, HEIGHT);
+    assert_true(raster_triangle(&page.raster, p, 7));
+    double whole = (double)twice_area(&p[0], &p[1], &p[2]);
+    double worst = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        if (depth[i] == 0)
+            continue;
+        raster_point_t at = {i % WIDTH * 16 + 8, i / WIDTH * 16 + 8, 0};
+        double truth = ((double)twice_area(&p[1], &p[2], &at) * p[0].near +
+                        (double)twice_area(&p[2], &p[0], &at) * p[1].near +
+                        (double)twice_area(&p[0], &p[1], &at) * p[2].near) /
+                       whole;
+        worst = fmax(worst, fabs(depth[i] - truth));
+    }
+    return worst;
+}
+
+/* Leaves are some pixels wide and cover little of the depth: exact. Huge and steep ones: within
+ * 1/256 of all depth. Slivers may be off, but not outside what their corners span.
+ */
+static void depth_is_a_plane(void **state)
+{
+    (void)state;
+    rng_t rng = {44};
+    double worst[2] = {0, 0};
+    for (int round = 0; round < 8000; round++) {
+        raster_point_t p[3];
+        int huge = round & 1;
+        random_triangle(&rng, huge ? 1500 : 160, huge ? 65000 : 3000, p);
+        double error = depth_error(p);
+        if (thickness(p) >= 1)
+            worst[huge] = fmax(worst[huge], error);
+        int32_t least = fix_min(p[0].near, fix_min(p[1].near, p[2].near));
+        int32_t most = fix_max(p[0].near, fix_max(p[1].near, p[2].near));
+        CHECK(error <= most - least + 256,
+              "a sliver %.3f pixels thick, depths %d to %d: off by %.0f", thickness(p), (int)least,
+              (int)most, error);
+    }
+    print_message("depth is off by up to %.2f on leaves, %.2f at all, of 65535\n", worst[0],
+                  worst[1]);
+    assert_true(worst[0] < 2);
+    assert_true(worst[1] < 256);
+}
+
+static void huge_triangles_fit(void **state)
+{
+    (void)state;
+    rng_t rng = {45};
+    static uint16_t deep[YB_MAX_SIDE];
+    static uint8_t row[YB_MAX_SIDE * 2];
+    yb_screen_t screen = {YB_MAX_SIDE, YB_MAX_SIDE, YB_RGB565};
+    for (int round = 0; round < 2000; round++) {
+        int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
+        yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
+        raster_t raster = {&screen, &band, y, y + 1};
+        raster_clear(&raster, 0);
+        raster_point_t p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k].x_q4 = rng_one_in(&rng, 2) ? -YB_MAX_SIDE * 16 : 2 * YB_MAX_SIDE * 16;
+            p[k].y_q4 = rng_one_in(&rng, 2) ? -YB_MAX_SIDE * 16 : 2 * YB_MAX_SIDE * 16;
+            p[k].near = rng_one_in(&rng, 2) ? 1 : 65535;
+        }
+        bool front = raster_triangle(&raster, p, 0xffff);
+        assert_int_equal(front, twice_area(&p[0], &p[1], &p[2]) < 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_pixel_is_drawn_once),
+        cmocka_unit_test(bands_are_parts_of_the_whole),
+        cmocka_unit_test(back_faces_and_flat_ones_draw_nothing),
+        cmocka_unit_test(edges_through_centres),
+        cmocka_unit_test(the_nearest_wins_in_any_order),
+        cmocka_unit_test(depth_is_a_plane),
+        cmocka_unit_test(huge_triangles_fit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
