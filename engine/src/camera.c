@@ -48,7 +48,7 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
         .walls = true,
         .water_q8 = YB_NO_WATER,
     };
-    yb_view_sun(view, YB_DEGREES(315), YB_DEGREES(45));
+    yb_view_sun(view, YB_DEGREES(315), YB_DEGREES(30));
     yb_view_orbit(view, map, 0, YB_DEGREES(30), 307);
 }
 

@@ -35,6 +35,8 @@
  */
 #define YB_VIEWER_ELEVATION 30
 #define YB_VIEWER_DISTANCE_Q8 307
+/* Heights are drawn doubled, as on relief maps: a screen this small would hide low mountains. */
+#define YB_VIEWER_EXAGGERATE_Q8 512
 
 typedef struct {
     yb_map_t map;

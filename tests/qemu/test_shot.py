@@ -37,6 +37,7 @@ class Shot(unittest.TestCase):
     def render(self, degrees):
         path = os.path.join(self.folder.name, f"render{degrees}.png")
         subprocess.run([os.environ["YB_YAMABIKO"], "render", self.map, "-o", path,
+                        "--exaggerate", "2",
                         "--panel", "ssd0323", "--azimuth", str(degrees), "--elevation", "30",
                         "--distance", "1.2"], check=True, capture_output=True)
         return path

@@ -245,7 +245,7 @@ typedef struct {
     uint32_t max_leaves;    /* at most so many triangles refined in a frame; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to 7 pixels, sun in the north-west 45
+/* The standard: 50 degrees across, true scale, edges up to 7 pixels, sun in the north-west 30
  * degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
