@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Prints what has been measured against what it may cost.
 
-    bench.py [--check] [GROUP ...]
+    bench.py [--check] [--page FILE] [GROUP ...]
 
 A line is group, name, target, value, unit, budget, separated by tabs; without a budget the last is
 "-". A group is a module tests/budget/group_<name>.py whose measure() yields (name, target, value,
 unit). The budgets are in budgets.tsv; with --check the exit status is 1 if an enforced one is
-exceeded, or if an enforced figure was not measured.
+exceeded, or if an enforced figure was not measured. With --page they are written as a page of
+tables as well: that is how docs/BENCHMARKS.md is made.
 """
 
 import argparse
@@ -15,6 +16,29 @@ import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+
+PAGE_HEAD = """# Benchmarks
+
+Written by `scripts/bench --page docs/BENCHMARKS.md`, not by hand. Instructions are counted by a plugin
+of QEMU: exact and repeatable, but instructions, not cycles. "Most" is the budget in
+[tests/budget/budgets.tsv](../tests/budget/budgets.tsv), where there is one; **bold** is above it.
+Frames are drawn on every map of the gallery; the standard views are four orbits, two from the summit
+and two on foot. Fidelity is of 100-byte codes made from the development windows.
+"""
+
+
+def write_page(path, lines):
+    page = PAGE_HEAD
+    group = None
+    for name, figure, target, value, unit, most in lines:
+        if name != group:
+            page += f"\n## {name.capitalize()}\n\n| figure | target | value | unit | most |\n| --- | --- | ---: | --- | ---: |\n"
+            group = name
+        shown = f"{int(value):,}" if str(value).isdigit() else str(value)
+        if most != "-" and float(value) > float(most):
+            shown = f"**{shown}**"
+        page += f"| {figure} | {target} | {shown} | {unit} | {most} |\n"
+    pathlib.Path(path).write_text(page, encoding="utf-8")
 
 
 def read_budgets():
@@ -34,6 +58,7 @@ def main():
     known = sorted(path.stem.removeprefix("group_") for path in HERE.glob("group_*.py"))
     parser = argparse.ArgumentParser(description="measured figures, one a line")
     parser.add_argument("--check", action="store_true", help="fail if a budget is exceeded")
+    parser.add_argument("--page", metavar="FILE", help="write a page of tables too")
     parser.add_argument("group", nargs="*", help=f"of {', '.join(known)}; without: all")
     options = parser.parse_args()
     unknown = set(options.group) - set(known)
@@ -43,15 +68,19 @@ def main():
     budgets = read_budgets()
     broken = []
     chosen = options.group or known
+    lines = []
     missing = {key for key, (_, enforced) in budgets.items() if enforced and key[0] in chosen}
     for group in chosen:
         for name, target, value, unit in importlib.import_module(f"group_{group}").measure():
             most, enforced = budgets.get((group, name, target), ("-", False))
             print(group, name, target, value, unit, most, sep="\t", flush=True)
+            lines.append((group, name, target, value, unit, most))
             missing.discard((group, name, target))
             if enforced and float(value) > float(most):
                 broken.append(f"{group}: {name}, {target}: {value} {unit}, at most {most}")
     broken += [f"{', '.join(key)}: has a budget but was not measured" for key in sorted(missing)]
+    if options.page:
+        write_page(options.page, lines)
     if options.check:
         for line in broken:
             print(line, file=sys.stderr)
