@@ -4,6 +4,7 @@
 
 #include "raster.h"
 #include "refine.h"
+#include "relief.h"
 #include "shade.h"
 #include "split.h"
 
@@ -14,11 +15,30 @@ typedef struct {
     uint32_t count;
 } walk_t;
 
+/* With twice the room that its relief may need. Without this all that lies behind the eye would be
+ * refined as if it touched it.
+ */
+bool plain_behind(const yb_frame_t *frame, const yb_point_t *const corner[3])
+{
+    int64_t reach = relief_reach(frame->map, &corner[0]->at, &corner[1]->at, &corner[2]->at);
+    int64_t lift = frame->lift_back_q9 < 0 ? -frame->lift_back_q9 : frame->lift_back_q9;
+    for (int i = 0; i < 3; i++) {
+        int64_t stray = 2 * reach + 256;
+        if (frame->view.water_q8 > corner[i]->at.z_q8)
+            stray += frame->view.water_q8 - (int64_t)corner[i]->at.z_q8;
+        if (corner[i]->depth_q8 + (stray * lift >> 9) >= frame->near_q8)
+            return false;
+    }
+    return true;
+}
+
 static void walk(walk_t *at, const yb_point_t *const corner[3], int level)
 {
     const yb_point_t *point[6] = {corner[0], corner[1], corner[2]};
     yb_point_t middle[3];
     int pattern = 0;
+    if (plain_behind(at->frame, corner))
+        return;
     for (int i = 0; i < 3 && level + 1 < YB_MAX_LEVELS; i++) {
         const yb_point_t *a = corner[i];
         const yb_point_t *b = corner[(i + 1) % 3];
