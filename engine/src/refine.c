@@ -6,6 +6,14 @@
 #include "shade.h"
 #include "split.h"
 
+/* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
+static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+{
+    int32_t highest = fix_max(a->at.z_q8, b->at.z_q8);
+    return highest < frame->view.water_q8 &&
+           highest + relief_reach(frame->map, &a->at, &b->at, &b->at) < frame->view.water_q8;
+}
+
 bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     int32_t dx = b->at.x_q8 - a->at.x_q8;
@@ -15,7 +23,7 @@ bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_
     /* By plan length over the nearest depth; both ends as they are, unclipped. Length < 2^17 and
      * split_q4 < 2^14; depth < 2^24. */
     int32_t depth = fix_max(fix_min(a->depth_q8, b->depth_q8), frame->near_q8);
-    return fix_length(dx, dy) * frame->split_q4 > depth << 4;
+    return fix_length(dx, dy) * frame->split_q4 > depth << 4 && !drowned(frame, a, b);
 }
 
 void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
@@ -87,9 +95,11 @@ static void find_extent(const yb_frame_t *frame, const yb_point_t *const p[3], e
     if (out_of_pyramid(frame, p, up, back))
         return;
     extent->where = ANYWHERE;
-    int32_t nearest = fix_min(p[0]->depth_q8, fix_min(p[1]->depth_q8, p[2]->depth_q8)) - back;
-    if (!p[0]->visible || !p[1]->visible || !p[2]->visible || nearest < frame->near_q8)
+    if (!p[0]->visible || !p[1]->visible || !p[2]->visible)
         return;
+    /* What comes nearer than the near distance is not drawn. */
+    int32_t nearest = fix_min(p[0]->depth_q8, fix_min(p[1]->depth_q8, p[2]->depth_q8)) - back;
+    nearest = fix_max(nearest, frame->near_q8);
     int32_t left = fix_min(p[0]->x_q4, fix_min(p[1]->x_q4, p[2]->x_q4));
     int32_t right = fix_max(p[0]->x_q4, fix_max(p[1]->x_q4, p[2]->x_q4));
     int32_t top = fix_min(p[0]->y_q4, fix_min(p[1]->y_q4, p[2]->y_q4));
