@@ -4,10 +4,11 @@
 #include "relief.h"
 
 enum {
-    FAR_Q8 = 4096 * 256,  /* positions are clamped to this */
-    NEAREST_Q8 = 128,     /* half a step: never draw nearer */
+    FAR_Q8 = 4096 * 256, /* positions are clamped to this */
+    NEAREST_Q8 = 128,    /* half a step: never draw nearer */
     LEAST_ZOOM_Q12 = 1024,
     MOST_FOCAL_Q4 = 65528,
+    LEAST_SPLIT_Q4 = 16,
     MOST_SPLIT_Q4 = 16383
 };
 
@@ -43,11 +44,11 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
     *view = (yb_view_t){
         .zoom_q12 = 4392,
         .exaggerate_q8 = 256,
-        .edge_q4 = 96,
+        .edge_q4 = 112,
         .walls = true,
         .water_q8 = YB_NO_WATER,
     };
-    yb_view_sun(view, YB_DEGREES(315), YB_DEGREES(45));
+    yb_view_sun(view, YB_DEGREES(315), YB_DEGREES(30));
     yb_view_orbit(view, map, 0, YB_DEGREES(30), 307);
 }
 
@@ -125,8 +126,10 @@ static void turn_vertices(yb_frame_t *frame, const pose_t *pose)
 static int32_t nearest_of(const yb_frame_t *frame, const yb_index_t corner[3])
 {
     const yb_map_t *map = frame->map;
-    int32_t reach = relief_reach(map, &map->vertex[corner[0]], &map->vertex[corner[1]],
-                                 &map->vertex[corner[2]]);
+    relief_bound_t bound;
+    relief_bound(map, &map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
+                 &bound);
+    int32_t reach = relief_reach(map, &bound, 0);
     int32_t nearest = INT32_MAX;
     for (int k = 0; k < 3; k++) {
         /* Height differences are below 2^19, lift at most 2^12. */
@@ -164,10 +167,10 @@ void camera_begin(yb_frame_t *frame)
     /* The block stands on a quarter of its relief. */
     int32_t relief = frame->map->high_q8 - frame->map->low_q8;
     frame->base_q8 = frame->map->low_q8 - (relief >> 2) - 256;
-    frame->focal_q4 = fix_min((int32_t)(((uint32_t)screen->width * view->zoom_q12) >> 8),
-                              MOST_FOCAL_Q4);
+    frame->focal_q4 =
+        fix_min((int32_t)(((uint32_t)screen->width * view->zoom_q12) >> 8), MOST_FOCAL_Q4);
     int32_t edge = fix_max(view->edge_q4, 1);
-    frame->split_q4 = fix_clamp(frame->focal_q4 * 16 / edge, 1, MOST_SPLIT_Q4);
+    frame->split_q4 = fix_clamp(frame->focal_q4 * 16 / edge, LEAST_SPLIT_Q4, MOST_SPLIT_Q4);
     turn_vertices(frame, &pose);
     find_near(frame);
 }

@@ -1,8 +1,8 @@
 /* The camera (colour paper): from the map's axes to the view's, and on to the screen.
  *
  * View space: right, up and depth, in q8 steps from the eye. "Visible" is what lies beyond the near
- * distance and in the pyramid |right|, |up| < 2 depth, which holds the picture: there a point can be
- * projected with 32-bit arithmetic.
+ * distance and in the pyramid |right|, |up| < 2 depth, which holds the picture: there a point can
+ * be projected with 32-bit arithmetic.
  */
 #ifndef YB_CAMERA_H
 #define YB_CAMERA_H

@@ -1,14 +1,12 @@
-/* Leaves that stick out of the view: cut at the near distance, a screen size beyond the screen and at
- * the pyramid in which points can be projected.
- *
- * Nearly all leaves need none of this. A cut point is always computed from the end inside to the
- * end outside, so two triangles that share an edge cut it in the same place.
- */
+#include "clip.h"
+
 #include "camera.h"
 #include "fix.h"
-#include "refine.h"
 
-enum { PLANES = 5, MOST_CORNERS = 3 + PLANES };
+enum {
+    PLANES = 5,
+    MOST_CORNERS = 3 + PLANES
+};
 
 typedef struct {
     camera_point_t corner[MOST_CORNERS];
@@ -19,8 +17,8 @@ typedef struct {
 static int64_t inside_of(const yb_frame_t *frame, const camera_point_t *p, int plane)
 {
     /* One screen size beyond each side: 3/2 from the middle, and two pixels more, so that whatever
-     * is within_reach is inside however it was rounded: else of two triangles with a common edge one
-     * would be cut and the other not. But never beyond |right|, |up| = 2 depth. */
+     * is within_reach is inside however it was rounded: else of two triangles with a common edge
+     * one would be cut and the other not. But never beyond |right|, |up| = 2 depth. */
     int32_t wide = fix_min(frame->screen.width * 24 + 32, 2 * frame->focal_q4);
     int32_t high = fix_min(frame->screen.height * 24 + 32, 2 * frame->focal_q4);
     switch (plane) {
@@ -64,8 +62,8 @@ static void clip_plane(const yb_frame_t *frame, const polygon_t *in, int plane, 
     }
 }
 
-static bool draw_clipped(const yb_frame_t *frame, const raster_t *raster,
-                         const yb_point_t *const corner[3], uint16_t pixel)
+bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
+               uint16_t pixel)
 {
     polygon_t polygon[2];
     polygon[0].count = 3;
@@ -75,16 +73,20 @@ static bool draw_clipped(const yb_frame_t *frame, const raster_t *raster,
     for (int plane = 0; plane < PLANES; plane++, now ^= 1)
         clip_plane(frame, &polygon[now], plane, &polygon[now ^ 1]);
     raster_point_t fan[3];
-    bool front = false;
+    raster_setup_t setup;
+    bool drawn = false;
     for (int i = 0; i < polygon[now].count; i++) {
         raster_point_t *to = &fan[fix_min(i, 2)];
         camera_project(frame, &polygon[now].corner[i], to);
         if (i < 2)
             continue;
-        front = raster_triangle(raster, fan, pixel) || front;
+        if (raster_setup(raster, fan, &setup)) {
+            raster_fill(raster, &setup, pixel);
+            drawn = true;
+        }
         fan[1] = fan[2];
     }
-    return front;
+    return drawn;
 }
 
 /* Within a screen size of the screen, where the rasteriser works? */
@@ -96,14 +98,12 @@ static bool within_reach(const yb_frame_t *frame, const yb_point_t *point)
            (uint32_t)point->y_q4 + high <= 3 * high;
 }
 
-bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
-               uint16_t pixel)
+bool clip_needs(const yb_frame_t *frame, const yb_point_t *const corner[3], raster_point_t to[3])
 {
-    raster_point_t p[3];
     for (int i = 0; i < 3; i++) {
         if (!within_reach(frame, corner[i]))
-            return draw_clipped(frame, raster, corner, pixel);
-        p[i] = (raster_point_t){corner[i]->x_q4, corner[i]->y_q4, corner[i]->near};
+            return true;
+        to[i] = (raster_point_t){corner[i]->x_q4, corner[i]->y_q4, corner[i]->near};
     }
-    return raster_triangle(raster, p, pixel);
+    return false;
 }

@@ -12,9 +12,23 @@
 #include "fix.h"
 #include "mesh.h"
 
-enum state { HEADER, FRAME_HEIGHTS, COUNTS, DIMENSION, HEIGHT, START, STEP, CHECK, DONE };
+enum state {
+    HEADER,
+    FRAME_HEIGHTS,
+    COUNTS,
+    DIMENSION,
+    HEIGHT,
+    START,
+    STEP,
+    CHECK,
+    DONE
+};
 
-enum { HEADER_BYTES = 14, FLAG_STRAIGHT = 4, FLAG_RESERVED = 8 };
+enum {
+    HEADER_BYTES = 14,
+    FLAG_STRAIGHT = 4,
+    FLAG_RESERVED = 8
+};
 
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
 {
@@ -55,8 +69,7 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, uint8_t byte)
     map->seed = h[12];
     load->gain = h[13];
     map->smooth = (load->flags & FLAG_STRAIGHT) == 0;
-    if ((load->flags & FLAG_RESERVED) != 0 || h[3] < 4 ||
-        h[4] == 0 || h[5] == 0 ||
+    if ((load->flags & FLAG_RESERVED) != 0 || h[3] < 4 || h[4] == 0 || h[5] == 0 ||
         (map->cell & 0xfff) == 0 || (map->unit & 0xfff) == 0)
         return YB_ERR_CORRUPT;
 #if YB_MAX_VERTICES < 255

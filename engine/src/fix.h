@@ -30,8 +30,8 @@ static inline int32_t fix_clamp(int32_t a, int32_t low, int32_t high)
     return a < low ? low : a > high ? high : a;
 }
 
-/* Length of a plan vector, from 2.8 % below the truth to 6.8 % above it: max + 3/8 min, rounded down.
- * |dx|, |dy| < 2^28.
+/* Length of a plan vector, from 2.8 % below the truth to 6.8 % above it: max + 3/8 min, rounded
+ * down. |dx|, |dy| < 2^28.
  */
 static inline int32_t fix_length(int32_t dx, int32_t dy)
 {

@@ -9,17 +9,17 @@
 /* Raises the threshold of refinement until the frame keeps to its bound. The count depends on the
  * view alone, so every band comes to the same threshold.
  */
-static void bound_leaves(yb_frame_t *frame)
+static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
-    while (frame->view.max_leaves > 0 && frame->split_q4 > 1) {
+    while (frame->view.max_leaves > 0 && frame->split_q4 > 16) {
         frame->stats.refined = 0;
         for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
             if (frame->first_row[t] <= frame->last_row[t])
-                refine_draw(frame, NULL, t);
+                refine_draw(frame, whole, NULL, t);
         }
         if (frame->stats.refined <= frame->view.max_leaves)
             break;
-        frame->split_q4 = frame->split_q4 * 3 / 4;
+        frame->split_q4 = fix_max(frame->split_q4 * 3 / 4, 16);
     }
     memset(&frame->stats, 0, sizeof frame->stats);
 }
@@ -33,9 +33,11 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->screen = *screen;
     camera_begin(frame);
     shade_begin(frame);
+    refine_view_t whole;
+    refine_see(frame, 0, screen->height, &whole);
     for (uint16_t t = 0; t < map->triangle_count; t++)
-        refine_bin(frame, t);
-    bound_leaves(frame);
+        refine_bin(frame, &whole, t);
+    bound_leaves(frame, &whole);
 }
 
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
@@ -48,11 +50,13 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     };
     if (raster.first_row >= raster.end_row)
         return;
+    refine_view_t view;
+    refine_see(frame, raster.first_row, raster.end_row, &view);
     raster_clear(&raster, shade_background(frame));
     for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
         if (frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
             frame->last_row[t] >= raster.first_row >> YB_ROW_SHIFT)
-            refine_draw(frame, &raster, t);
+            refine_draw(frame, &view, &raster, t);
     }
     if (frame->view.walls)
         walls_draw(frame, &raster);

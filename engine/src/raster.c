@@ -4,16 +4,6 @@
 
 #include "fix.h"
 
-/* Twice an area in 1/256 square pixel. Corners lie within a screen size and a little of the screen,
- * so differences are at most 3 * 16 * YB_MAX_SIDE + 80: 24656 for 512 pixels, and a product of two,
- * twice, 2 * 24656^2 < 2^31.
- */
-#if YB_MAX_SIDE <= 512
-typedef int32_t area_t;
-#else
-typedef int64_t area_t;
-#endif
-
 static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, uint16_t pixel)
 {
     if (raster->screen->format == YB_RGB565) {
@@ -40,7 +30,9 @@ void raster_clear(const raster_t *raster, uint16_t pixel)
 
 /* --- The plane of 1/depth --------------------------------------------------------------------- */
 
-enum { STEEPEST_Q14 = 1 << 30 };
+enum {
+    STEEPEST_Q14 = 1 << 30
+};
 
 /* a * 2^18 / b, for |a| < 2^30 and b > 0, cut to ±STEEPEST_Q14. */
 static int32_t ratio_q18(int32_t a, int32_t b)
@@ -59,10 +51,10 @@ static int32_t ratio_q18(int32_t a, int32_t b)
 
 /* Change of 1/depth per pixel, 14 fractional bits, along x and y. Differences are scaled down until
  * they have 13 bits: 1/depth has 16, so each sum of two products is below 2^30. Accuracy is only
- * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on that
- * its gradient must be cut would get depths far from its own: it is taken as flat.
+ * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on
+ * that its gradient must be cut would get depths far from its own: it is taken as flat.
  */
-static void depth_gradient(const raster_point_t p[3], area_t area, int32_t *along_x,
+static void depth_gradient(const raster_point_t p[3], raster_area_t area, int32_t *along_x,
                            int32_t *along_y)
 {
     int32_t x1 = p[1].x_q4 - p[0].x_q4;
@@ -89,8 +81,8 @@ static void depth_gradient(const raster_point_t p[3], area_t area, int32_t *alon
 
 /* The side of an edge on which a point lies, as it changes along a row and from row to row. */
 typedef struct {
-    area_t value; /* >= 0 inside */
-    area_t along_x, along_y;
+    raster_area_t value; /* >= 0 inside */
+    raster_area_t along_x, along_y;
 } edge_t;
 
 /* From p to q, at the centre of the pixel (x, y). */
@@ -100,10 +92,11 @@ static void edge_set(edge_t *edge, const raster_point_t *p, const raster_point_t
     int32_t dx = q->x_q4 - p->x_q4;
     int32_t dy = q->y_q4 - p->y_q4;
     bool top_left = dy < 0 || (dy == 0 && dx > 0);
-    edge->value = (area_t)dx * (y * 16 + 8 - p->y_q4) - (area_t)dy * (x * 16 + 8 - p->x_q4);
+    edge->value =
+        (raster_area_t)dx * (y * 16 + 8 - p->y_q4) - (raster_area_t)dy * (x * 16 + 8 - p->x_q4);
     edge->value -= top_left ? 0 : 1;
-    edge->along_x = -(area_t)dy * 16;
-    edge->along_y = (area_t)dx * 16;
+    edge->along_x = -(raster_area_t)dy * 16;
+    edge->along_y = (raster_area_t)dx * 16;
 }
 
 /* First pixel whose centre is at or right of (below) a coordinate. */
@@ -117,44 +110,53 @@ static inline uint16_t depth_of(uint32_t near_q14)
     return (uint16_t)fix_clamp((int32_t)near_q14 >> 14, 1, 65535);
 }
 
-bool raster_triangle(const raster_t *raster, const raster_point_t corner[3], uint16_t pixel)
+bool raster_setup(const raster_t *raster, const raster_point_t corner[3], raster_setup_t *setup)
 {
     /* y points down, so a counter-clockwise triangle is clockwise here: swap two corners. */
-    const raster_point_t p[3] = {corner[0], corner[2], corner[1]};
-    area_t area = (area_t)(p[1].x_q4 - p[0].x_q4) * (p[2].y_q4 - p[0].y_q4) -
-                  (area_t)(p[1].y_q4 - p[0].y_q4) * (p[2].x_q4 - p[0].x_q4);
-    if (area <= 0)
+    const raster_point_t *a = &corner[0];
+    const raster_point_t *b = &corner[2];
+    const raster_point_t *c = &corner[1];
+    int32_t left = fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4));
+    int32_t right = fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4));
+    int32_t top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
+    int32_t bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
+    setup->x0 = fix_max(first_pixel(left), 0);
+    setup->x1 = fix_min(first_pixel(right + 1), raster->screen->width);
+    setup->y0 = fix_max(first_pixel(top), raster->first_row);
+    setup->y1 = fix_min(first_pixel(bottom + 1), raster->end_row);
+    if (setup->x0 >= setup->x1 || setup->y0 >= setup->y1)
         return false;
-    int32_t left = fix_min(p[0].x_q4, fix_min(p[1].x_q4, p[2].x_q4));
-    int32_t right = fix_max(p[0].x_q4, fix_max(p[1].x_q4, p[2].x_q4));
-    int32_t top = fix_min(p[0].y_q4, fix_min(p[1].y_q4, p[2].y_q4));
-    int32_t bottom = fix_max(p[0].y_q4, fix_max(p[1].y_q4, p[2].y_q4));
-    int32_t x0 = fix_max(first_pixel(left), 0);
-    int32_t x1 = fix_min(first_pixel(right + 1), raster->screen->width);
-    int32_t y0 = fix_max(first_pixel(top), raster->first_row);
-    int32_t y1 = fix_min(first_pixel(bottom + 1), raster->end_row);
-    if (x0 >= x1 || y0 >= y1)
-        return true;
+    setup->area = (raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
+                  (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4);
+    setup->p[0] = *a;
+    setup->p[1] = *b;
+    setup->p[2] = *c;
+    return setup->area > 0;
+}
+
+void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t pixel)
+{
+    const raster_point_t *p = setup->p;
     edge_t edge[3];
     for (int i = 0; i < 3; i++)
-        edge_set(&edge[i], &p[i], &p[i == 2 ? 0 : i + 1], x0, y0);
+        edge_set(&edge[i], &p[i], &p[i == 2 ? 0 : i + 1], setup->x0, setup->y0);
     int32_t near_x = 0;
     int32_t near_y = 0;
-    depth_gradient(p, area, &near_x, &near_y);
+    depth_gradient(p, setup->area, &near_x, &near_y);
     /* Unsigned: partial sums may wrap, the depth inside the triangle does not. */
     uint32_t near = ((uint32_t)p[0].near << 14) + (1u << 13) +
-                    (uint32_t)(near_x >> 4) * (uint32_t)(x0 * 16 + 8 - p[0].x_q4) +
-                    (uint32_t)(near_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0].y_q4);
+                    (uint32_t)(near_x >> 4) * (uint32_t)(setup->x0 * 16 + 8 - p[0].x_q4) +
+                    (uint32_t)(near_y >> 4) * (uint32_t)(setup->y0 * 16 + 8 - p[0].y_q4);
     const yb_band_t *band = raster->band;
-    for (int32_t y = y0; y < y1; y++) {
+    for (int32_t y = setup->y0; y < setup->y1; y++) {
         int32_t line = y - raster->first_row;
         uint16_t *depth = band->depth + line * raster->screen->width;
         uint8_t *row = band->pixels + (size_t)line * band->pitch;
-        area_t a = edge[0].value;
-        area_t b = edge[1].value;
-        area_t c = edge[2].value;
+        raster_area_t a = edge[0].value;
+        raster_area_t b = edge[1].value;
+        raster_area_t c = edge[2].value;
         uint32_t here = near;
-        for (int32_t x = x0; x < x1; x++) {
+        for (int32_t x = setup->x0; x < setup->x1; x++) {
             if ((a | b | c) >= 0 && depth_of(here) > depth[x]) {
                 depth[x] = depth_of(here);
                 put_pixel(raster, row, x, pixel);
@@ -168,5 +170,4 @@ bool raster_triangle(const raster_t *raster, const raster_point_t corner[3], uin
             edge[i].value += edge[i].along_y;
         near += (uint32_t)near_y;
     }
-    return true;
 }

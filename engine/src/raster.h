@@ -4,6 +4,16 @@
 
 #include <yamabiko/yamabiko.h>
 
+/* Twice an area in 1/256 square pixel. Corners lie within a screen size and a little of the screen,
+ * so differences are at most 3 * 16 * YB_MAX_SIDE + 80: 24656 for 512 pixels, and a product of two,
+ * twice, 2 * 24656^2 < 2^31.
+ */
+#if YB_MAX_SIDE <= 512
+typedef int32_t raster_area_t;
+#else
+typedef int64_t raster_area_t;
+#endif
+
 typedef struct {
     const yb_screen_t *screen;
     const yb_band_t *band;
@@ -19,11 +29,23 @@ typedef struct {
 /* Clears the band's depths and fills it with one pixel value. */
 void raster_clear(const raster_t *raster, uint16_t pixel);
 
-/* Draws a triangle in one pixel value where it is nearer than what is there; true if it is
- * front-facing (counter-clockwise to the eye). Coordinates lie within one screen size of the
- * screen. A pixel is covered if its centre is inside, or on a top or left edge: pixels along the
- * common edge of two triangles are drawn once, none is left out.
+/* A triangle ready to be filled. */
+typedef struct {
+    raster_point_t p[3]; /* clockwise, as y points down */
+    raster_area_t area;  /* twice its area */
+    int32_t x0, x1;      /* columns and rows that it may touch, ends excluded */
+    int32_t y0, y1;
+} raster_setup_t;
+
+/* Looks at a triangle: false if it is seen from behind or no pixel of the band is near it. Its
+ * coordinates lie within one screen size of the screen.
  */
-bool raster_triangle(const raster_t *raster, const raster_point_t corner[3], uint16_t pixel);
+bool raster_setup(const raster_t *raster, const raster_point_t corner[3], raster_setup_t *setup);
+
+/* Draws it in one pixel value where it is nearer than what is there. A pixel is covered if its
+ * centre is inside, or on a top or left edge: pixels along the common edge of two triangles are
+ * drawn once, none is left out.
+ */
+void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t pixel);
 
 #endif

@@ -1,6 +1,7 @@
 #include "refine.h"
 
 #include "camera.h"
+#include "clip.h"
 #include "fix.h"
 #include "relief.h"
 #include "shade.h"
@@ -10,8 +11,11 @@
 static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     int32_t highest = fix_max(a->at.z_q8, b->at.z_q8);
-    return highest < frame->view.water_q8 &&
-           highest + relief_reach(frame->map, &a->at, &b->at, &b->at) < frame->view.water_q8;
+    if (highest >= frame->view.water_q8)
+        return false;
+    relief_bound_t bound;
+    relief_bound(frame->map, &a->at, &b->at, &b->at, &bound);
+    return highest + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
 }
 
 bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
@@ -48,99 +52,130 @@ void refine_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
     camera_see(frame, point);
 }
 
-/* --- Bounds ----------------------------------------------------------------------------------- */
+/* --- What lies outside the picture ------------------------------------------------------------ */
 
-/* Where all that a triangle becomes may be drawn, in 1/16 pixel. */
-typedef struct {
-    enum { NOWHERE, SOMEWHERE, ANYWHERE } where; /* ANYWHERE: near the eye, no bounds known */
-    int32_t left, right, top, bottom;            /* for SOMEWHERE */
-} extent_t;
+/* A plane of the pyramid that a band is seen through: inside is across . (right, up) + slope *
+ * depth
+ * - near >= 0, in q8, with the slope in 1/256.
+ */
+static int32_t plane_value(const refine_plane_t *plane, const yb_point_t *p)
+{
+    /* depth < 2^24 and |slope| <= 2 * 2^8: the product is within 2^29. Dropping 4 bits of the depth
+     * loses at most 2 * 16, the last shift 1: planes lie 34 farther out than they should. */
+    return plane->right * p->right_q8 + plane->up * p->up_q8 +
+           (((p->depth_q8 >> 4) * plane->slope_q8) >> 4) - plane->near_q8;
+}
 
-/* Height a point may gain or lose until it is drawn: refinement, and the water over it. */
+/* The lowest length class of which an edge may be split at this depth or farther. The test of
+ * refine_splits asks for length > depth * 16 / split_q4, and fix_length is up to 1/14 too long.
+ */
+static int shortest_split(const yb_frame_t *frame, int32_t depth)
+{
+    depth = fix_max(depth, frame->near_q8);
+    int32_t length = (depth >> 6) * 14 / frame->split_q4 << 6;
+    return relief_class(fix_min(length, 65535), 0);
+}
+
+/* Height that a point of the triangle may gain or lose until it is drawn: by refinement, and by the
+ * water over it.
+ */
 static int32_t stray_of(const yb_frame_t *frame, const yb_point_t *const p[3])
 {
-    int32_t reach = relief_reach(frame->map, &p[0]->at, &p[1]->at, &p[2]->at);
-    int32_t water = frame->view.water_q8;
+    relief_bound_t bound;
+    relief_bound(frame->map, &p[0]->at, &p[1]->at, &p[2]->at, &bound);
+    int32_t back = ((relief_reach(frame->map, &bound, 0) >> 4) + 1) * fix_abs(frame->lift_back_q9);
+    int32_t depth = fix_min(p[0]->depth_q8, fix_min(p[1]->depth_q8, p[2]->depth_q8));
+    int32_t reach =
+        relief_reach(frame->map, &bound, shortest_split(frame, depth - (back >> 5) - 1));
     int32_t lowest = fix_min(p[0]->at.z_q8, fix_min(p[1]->at.z_q8, p[2]->at.z_q8));
-    return lowest - reach < water ? fix_max(reach, water - lowest + reach) : reach;
+    int32_t water = frame->view.water_q8;
+    return lowest - reach < water ? fix_max(reach, water - lowest) : reach;
 }
 
-/* Is everything within `up` and `back` of the corners behind the eye, or beyond one side of the
- * pyramid of slope 2?
+/* Tests what a triangle can become against those planes of *planes (a bit each) that it may cross.
+ * True: nothing of it is inside. Else the bits of planes that it is wholly inside of are cleared;
+ * its children need not look at them.
  */
-static bool out_of_pyramid(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t up,
-                           int32_t back)
+static bool outside(const yb_frame_t *frame, const refine_view_t *view,
+                    const yb_point_t *const p[3], uint8_t *planes)
 {
-    uint32_t out = 31;
-    for (int i = 0; i < 3; i++) {
-        int32_t depth = p[i]->depth_q8 + back;
-        uint32_t side = depth < frame->near_q8 ? 1 : 0;
-        side |= p[i]->right_q8 > 2 * depth ? 2 : 0;
-        side |= -p[i]->right_q8 > 2 * depth ? 4 : 0;
-        side |= p[i]->up_q8 - up > 2 * depth ? 8 : 0;
-        side |= -p[i]->up_q8 - up > 2 * depth ? 16 : 0;
-        out &= side;
-    }
-    return out != 0;
-}
-
-static void find_extent(const yb_frame_t *frame, const yb_point_t *const p[3], extent_t *extent)
-{
+    if (*planes == 0)
+        return false;
     int32_t stray = stray_of(frame, p);
-    /* Below 2^19 * 2^12 >> 9, in halves so that it fits; one more for rounding. */
-    int32_t up = ((stray >> 1) * frame->lift_up_q9 >> 8) + frame->lift_up_q9 / 256 + 1;
-    int32_t lift_back = fix_abs(frame->lift_back_q9);
-    int32_t back = ((stray >> 1) * lift_back >> 8) + lift_back / 256 + 1;
-    extent->where = NOWHERE;
-    if (out_of_pyramid(frame, p, up, back))
-        return;
-    extent->where = ANYWHERE;
-    if (!p[0]->visible || !p[1]->visible || !p[2]->visible)
-        return;
-    /* What comes nearer than the near distance is not drawn. */
-    int32_t nearest = fix_min(p[0]->depth_q8, fix_min(p[1]->depth_q8, p[2]->depth_q8)) - back;
-    nearest = fix_max(nearest, frame->near_q8);
-    int32_t left = fix_min(p[0]->x_q4, fix_min(p[1]->x_q4, p[2]->x_q4));
-    int32_t right = fix_max(p[0]->x_q4, fix_max(p[1]->x_q4, p[2]->x_q4));
-    int32_t top = fix_min(p[0]->y_q4, fix_min(p[1]->y_q4, p[2]->y_q4));
-    int32_t bottom = fix_max(p[0]->y_q4, fix_max(p[1]->y_q4, p[2]->y_q4));
-    /* A point at `off` focal lengths from the axis strays by at most (up + off * back) / depth focal
-     * lengths. off is at most 2; mostly below 1/2, on the screen. */
-    int32_t off_x = fix_max(fix_abs(left - frame->screen.width * 8),
-                            fix_abs(right - frame->screen.width * 8));
-    int32_t off_y = fix_max(fix_abs(top - frame->screen.height * 8),
-                            fix_abs(bottom - frame->screen.height * 8));
-    bool central = 2 * fix_max(off_x, off_y) <= frame->focal_q4;
-    int32_t stray_q8 = up + (central ? back >> 1 : 2 * back) + 1;
-    if (stray_q8 >= 1 << 20 || stray_q8 >= nearest)
-        return;
-    int32_t ratio_q10 = (stray_q8 << 10) / nearest; /* below 1: below 2^10 */
-    int32_t margin = ((frame->focal_q4 * ratio_q10) >> 10) + (frame->focal_q4 >> 10) + 4;
-    extent->where = SOMEWHERE;
-    extent->left = left - margin;
-    extent->right = right + margin;
-    extent->top = top - margin;
-    extent->bottom = bottom + margin;
-    if (extent->right < 0 || extent->left > frame->screen.width * 16 || extent->bottom < 0 ||
-        extent->top > frame->screen.height * 16)
-        extent->where = NOWHERE;
+    for (int i = 0; i < REFINE_PLANES; i++) {
+        if ((*planes & 1 << i) == 0)
+            continue;
+        const refine_plane_t *plane = &view->plane[i];
+        /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
+        int32_t margin = (((stray >> 4) + 1) * plane->lift_q9 >> 5) + 34;
+        int32_t a = plane_value(plane, p[0]);
+        int32_t b = plane_value(plane, p[1]);
+        int32_t c = plane_value(plane, p[2]);
+        if (fix_max(a, fix_max(b, c)) < -margin)
+            return true;
+        if (fix_min(a, fix_min(b, c)) > margin)
+            *planes &= (uint8_t) ~(1 << i);
+    }
+    return false;
 }
 
-void refine_bin(yb_frame_t *frame, uint16_t triangle)
+/* A slope of the picture's pyramid, in 1/256, for a line `off` sixteenths of a pixel from the
+ * middle: off / focal, rounded up. The picture lies within a slope of 2.
+ */
+static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
+{
+    return off_q4 >= 0 ? (off_q4 * 256 + frame->focal_q4 - 1) / frame->focal_q4
+                       : -(-off_q4 * 256 / frame->focal_q4);
+}
+
+void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
+{
+    int32_t wide = slope_q8(frame, frame->screen.width * 8 + 16);
+    int32_t middle = frame->screen.height * 8;
+    const refine_plane_t planes[REFINE_PLANES] = {
+        {.slope_q8 = 256, .near_q8 = frame->near_q8},
+        {.right = 1, .slope_q8 = wide},
+        {.right = -1, .slope_q8 = wide},
+        {.up = -1, .slope_q8 = slope_q8(frame, middle - first_row * 16 + 16)},
+        {.up = 1, .slope_q8 = slope_q8(frame, end_row * 16 - middle + 16)},
+    };
+    for (int i = 0; i < REFINE_PLANES; i++) {
+        view->plane[i] = planes[i];
+        view->plane[i].lift_q9 = fix_abs(planes[i].up * frame->lift_up_q9 -
+                                         ((planes[i].slope_q8 * frame->lift_back_q9) >> 8)) +
+                                 2;
+    }
+}
+
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, uint16_t triangle)
 {
     const yb_point_t *const p[3] = {&frame->root[0], &frame->root[1], &frame->root[2]};
     for (int i = 0; i < 3; i++)
         refine_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-    extent_t extent;
-    find_extent(frame, p, &extent);
     int32_t first = 0;
     int32_t last = frame->screen.height - 1;
-    if (extent.where == NOWHERE) {
+    uint8_t planes = REFINE_ALL_PLANES;
+    if (outside(frame, whole, p, &planes)) {
         last = 0;
         first = 1 << YB_ROW_SHIFT;
-    } else if (extent.where == SOMEWHERE) {
-        first = fix_max(extent.top >> 4, 0);
-        last = fix_min(extent.bottom >> 4, last);
+    } else {
+        /* All it can become lies in the prism of its corners moved up and down. */
+        int32_t stray = stray_of(frame, p);
+        int32_t top = INT32_MAX;
+        int32_t bottom = INT32_MIN;
+        bool known = true;
+        for (int k = 0; k < 6 && known; k++) {
+            yb_point_t end;
+            camera_drop(frame, p[k >> 1], p[k >> 1]->at.z_q8 + ((k & 1) != 0 ? stray : -stray),
+                        &end);
+            known = end.visible;
+            top = fix_min(top, end.y_q4);
+            bottom = fix_max(bottom, end.y_q4);
+        }
+        if (known) {
+            first = fix_clamp((top >> 4) - 1, 0, last);
+            last = fix_clamp((bottom >> 4) + 1, 0, last);
+        }
     }
     frame->first_row[triangle] = (uint8_t)(first >> YB_ROW_SHIFT);
     frame->last_row[triangle] = (uint8_t)(last >> YB_ROW_SHIFT);
@@ -148,36 +183,28 @@ void refine_bin(yb_frame_t *frame, uint16_t triangle)
 
 /* --- Refinement ------------------------------------------------------------------------------- */
 
-/* What bounds say about a triangle that is about to be split. */
-static bool drop(const yb_frame_t *frame, const raster_t *raster, yb_level_t *level)
-{
-    if (level->inside)
-        return false;
-    extent_t extent;
-    find_extent(frame, level->corner, &extent);
-    if (extent.where != SOMEWHERE)
-        return extent.where == NOWHERE;
-    int32_t first = raster != NULL ? raster->first_row * 16 : 0;
-    int32_t end = raster != NULL ? raster->end_row * 16 : frame->screen.height * 16;
-    if (extent.bottom < first || extent.top > end)
-        return true;
-    level->inside = extent.left >= 0 && extent.right <= frame->screen.width * 16 &&
-                    extent.top >= first && extent.bottom <= end;
-    return false;
-}
-
+/* Draws a triangle that is not split any more: lit only if it covers a pixel. */
 static void leaf(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3])
 {
     frame->stats.refined++;
     if (raster == NULL)
         return;
-    uint16_t pixel = shade_ground(frame, &p[0]->at, &p[1]->at, &p[2]->at);
-    if (clip_draw(frame, raster, p, pixel))
+    raster_point_t corner[3];
+    raster_setup_t setup;
+    uint16_t pixel = 0;
+    if (clip_needs(frame, p, corner)) {
+        pixel = shade_ground(frame, &p[0]->at, &p[1]->at, &p[2]->at);
+        frame->stats.drawn += clip_draw(frame, raster, p, pixel) ? 1 : 0;
+    } else if (raster_setup(raster, corner, &setup)) {
+        pixel = shade_ground(frame, &p[0]->at, &p[1]->at, &p[2]->at);
+        raster_fill(raster, &setup, pixel);
         frame->stats.drawn++;
+    }
 }
 
 /* Splits the edges of a level that look long; false if the triangle is done with. */
-static bool open_level(yb_frame_t *frame, const raster_t *raster, yb_level_t *level)
+static bool open_level(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                       yb_level_t *level)
 {
     level->child = 0;
     level->pattern = 0;
@@ -185,7 +212,7 @@ static bool open_level(yb_frame_t *frame, const raster_t *raster, yb_level_t *le
         if (refine_splits(frame, level->corner[i], level->corner[i == 2 ? 0 : i + 1]))
             level->pattern |= (uint8_t)(1 << i);
     }
-    if (level->pattern != 0 && drop(frame, raster, level))
+    if (level->pattern != 0 && outside(frame, view, level->corner, &level->planes))
         return false;
     if (level->pattern != 0 && level == &frame->level[YB_MAX_LEVELS - 1]) {
         frame->stats.depth_limited++;
@@ -203,15 +230,16 @@ static bool open_level(yb_frame_t *frame, const raster_t *raster, yb_level_t *le
     return true;
 }
 
-void refine_draw(yb_frame_t *frame, const raster_t *raster, uint16_t triangle)
+void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                 uint16_t triangle)
 {
     yb_level_t *level = frame->level;
     for (int i = 0; i < 3; i++) {
         refine_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
         level->corner[i] = &frame->root[i];
     }
-    level->inside = false;
-    bool down = open_level(frame, raster, level);
+    level->planes = REFINE_ALL_PLANES;
+    bool down = open_level(frame, view, raster, level);
     for (;;) {
         if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
@@ -226,9 +254,10 @@ void refine_draw(yb_frame_t *frame, const raster_t *raster, uint16_t triangle)
         }
         yb_level_t *below = level + 1;
         for (int i = 0; i < 3; i++)
-            below->corner[i] = child[i] < 3 ? level->corner[child[i]] : &level->middle[child[i] - 3];
-        below->inside = level->inside;
+            below->corner[i] =
+                child[i] < 3 ? level->corner[child[i]] : &level->middle[child[i] - 3];
+        below->planes = level->planes;
         level = below;
-        down = open_level(frame, raster, level);
+        down = open_level(frame, view, raster, level);
     }
 }

@@ -5,16 +5,18 @@
 #include "mesh.h"
 
 enum {
-    HASH_MEAN = 510,   /* of the sum of four bytes; also its largest deviation */
-    HASH_LOG2_Q11 = 14761, /* log2 of its standard deviation, 147.80, in 1/2048 */
+    HASH_MEAN = 510,       /* of the sum of four bytes */
+    HASH_MOST = 320,       /* the sum less its mean is cut to ± this, one time in 38 */
+    HASH_LOG2_Q11 = 14712, /* log2 of the standard deviation that remains, 145.37, in 1/2048 */
     NOISE_SHIFT = 9,
+    LONGEST_CLASS = 48,    /* 32 steps: longer edges move like these */
     MOST_REACH_Q8 = 400000 /* what gravity leaves: see relief_reach */
 };
 
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
 
 /* Noise of a place: the sum of the four bytes of a hash of where it is, less its mean. Nearly
- * Gaussian, within ±510.
+ * Gaussian; its tails are cut, because bounds on what refinement can do are what makes bands cheap.
  */
 static int32_t place_noise(const yb_map_t *map, uint32_t x_q8, uint32_t y_q8)
 {
@@ -22,7 +24,8 @@ static int32_t place_noise(const yb_map_t *map, uint32_t x_q8, uint32_t y_q8)
     h = (h ^ h >> 16) * 0x7feb352du;
     h = (h ^ h >> 15) * 0x846ca68bu;
     h ^= h >> 16;
-    return (int32_t)((h & 255) + (h >> 8 & 255) + (h >> 16 & 255) + (h >> 24)) - HASH_MEAN;
+    int32_t sum = (int32_t)((h & 255) + (h >> 8 & 255) + (h >> 16 & 255) + (h >> 24));
+    return fix_clamp(sum - HASH_MEAN, -HASH_MOST, HASH_MOST);
 }
 
 /* The smooth part: half way between the ends, on the parabola that has their slopes. |slope| is at
@@ -69,28 +72,38 @@ void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t 
     middle->gy_q11 = (int16_t)((a->gy_q11 + b->gy_q11) >> 1);
 }
 
-int32_t relief_reach(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
-                     const yb_vertex_t *c)
+void relief_bound(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
+                  const yb_vertex_t *c, relief_bound_t *bound)
 {
     const yb_vertex_t *corner[4] = {a, b, c, a};
-    int32_t bulge = 0;
-    int longest = 0;
+    int32_t rise = 0;
+    bound->longest = 0;
     for (int i = 0; i < 3; i++) {
         const yb_vertex_t *p = corner[i];
         const yb_vertex_t *q = corner[i + 1];
-        longest = fix_max(longest, relief_class(q->x_q8 - p->x_q8, q->y_q8 - p->y_q8));
+        int class = relief_class(q->x_q8 - p->x_q8, q->y_q8 - p->y_q8);
+        bound->longest = fix_max(bound->longest, class);
         if (map->smooth)
-            bulge = fix_max(bulge, fix_abs(smooth_rise(p, q)));
+            rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
     }
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */
-    int32_t reach = bulge + (bulge >> 1) + 16;
-    if (!map->detail)
-        return reach;
-    /* A reach too large for its table is one that gravity limits: the noise of an edge is at most its
-     * length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L. */
-    bool limited = map->reach_q8[longest] == UINT16_MAX;
-    return reach + (limited ? MOST_REACH_Q8 : map->reach_q8[longest]);
+    bound->bulge_q8 = rise + (rise >> 1) + 16;
+}
+
+int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int shortest)
+{
+    if (!map->detail || bound->longest < shortest)
+        return bound->bulge_q8;
+    /* A reach too large for its table is one that gravity limits: the noise of an edge is at most
+     * its length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L.
+     */
+    if (map->reach_q8[bound->longest] == UINT16_MAX)
+        return bound->bulge_q8 + MOST_REACH_Q8;
+    /* Classes of the halved edges go down by four; those below the shortest do not count. */
+    int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
+    return bound->bulge_q8 + map->reach_q8[bound->longest] -
+           (uncounted >= 0 ? map->reach_q8[uncounted] : 0);
 }
 
 /* --- The constants of the map ----------------------------------------------------------------- */
@@ -168,11 +181,13 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
             int32_t dy = fix_abs(b->y_q8 - a->y_q8) >> 1;
             int32_t square = log2_square_q11((uint32_t)(dx * dx) + (uint32_t)(dy * dy));
             int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
-            sum += term < 24 * 2048 ? fix_exp2_q11(term + 8 * 2048) : (uint64_t)fix_exp2_q11(term) << 8;
+            sum += term < 24 * 2048 ? fix_exp2_q11(term + 8 * 2048)
+                                    : (uint64_t)fix_exp2_q11(term) << 8;
         }
     }
-    sum /= edges;
-    return sum == 0 ? INT32_MIN : fix_log2_q11(sum) - 8 * 2048;
+    if (edges == 0 || sum < edges)
+        return INT32_MIN;
+    return fix_log2_q11(sum / edges) - 8 * 2048;
 }
 
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
@@ -189,14 +204,14 @@ static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_
     return (variance >> 1) + fix_log2_q11(load->gain) - 5 * 2048;
 }
 
-/* How far noise may move the midpoint of an edge of class c: by its largest hash, and by gravity not
- * beyond the length of the longest edge of the class. Its squared half length is below 1.061 · 2^((c +
- * 1) / 2), so fix_length is below 2 · 1.03 · 1.068 · 2^((c + 1) / 4).
+/* How far noise may move the midpoint of an edge of class c: by its largest hash, and by gravity
+ * not beyond the length of the longest edge of the class. Its squared half length is below 1.061 ·
+ * 2^((c + 1) / 2), so fix_length is below 2 · 1.03 · 1.068 · 2^((c + 1) / 4).
  */
 static uint32_t most_move(uint32_t scale, int c)
 {
     uint32_t length = (fix_exp2_q11((c + 1) * 512) + 1) * 9 / 4;
-    uint32_t move = (scale * HASH_MEAN >> NOISE_SHIFT) + 1;
+    uint32_t move = (scale * HASH_MOST >> NOISE_SHIFT) + 1;
     return move < length ? move : length;
 }
 
@@ -209,7 +224,7 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
 {
     for (int c = 0; c < YB_LENGTH_CLASSES; c++) {
         /* The class stands for the geometric middle of its lengths: log2 (L/2)^2 = c/2 + 1/4. */
-        int32_t length = (c * 1024 + 512 - 14 * 2048) >> 1;
+        int32_t length = (fix_min(c, LONGEST_CLASS) * 1024 + 512 - 14 * 2048) >> 1;
         uint32_t scale = 0;
         if (amplitude != INT32_MIN) {
             int32_t e = amplitude + ((hurst_q8 * length) >> 8);

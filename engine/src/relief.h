@@ -35,8 +35,18 @@ static inline bool relief_splits(int32_t dx, int32_t dy)
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle);
 
-/* How far refinement can move any point of triangle abc from its plane, at most. */
-int32_t relief_reach(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
-                     const yb_vertex_t *c);
+/* What bounds the refinement of a triangle: its smooth part, and the class of its longest edge. */
+typedef struct {
+    int32_t bulge_q8;
+    int longest;
+} relief_bound_t;
+
+void relief_bound(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
+                  const yb_vertex_t *c, relief_bound_t *bound);
+
+/* How far refinement can move any point of the triangle from its plane, at most, if no edge of a
+ * class below `shortest` is split.
+ */
+int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int shortest);
 
 #endif

@@ -3,17 +3,17 @@
 #include "fix.h"
 
 enum {
-    SHADES = 16,       /* of which the ground uses 2 .. 15: 14 shades */
-    DARKEST = 2,       /* what the sun does not reach: light of the sky */
+    SHADES = 16, /* of which the ground uses 2 .. 15: 14 shades */
+    DARKEST = 2, /* what the sun does not reach: light of the sky */
     HUES = 16,
-    WALL_DIM = 3       /* shades by which a wall is darker than ground would be */
+    WALL_DIM = 3 /* shades by which a wall is darker than ground would be */
 };
 
 /* Hues of the ground from the lowest to the highest: woods, meadows, bare soil, rock, snow. */
 static const uint8_t ground_hue[HUES][3] = {
-    {62, 112, 66}, {81, 125, 70}, {99, 139, 74}, {118, 152, 78},
-    {137, 157, 87}, {157, 163, 95}, {176, 168, 104}, {169, 152, 97},
-    {163, 136, 89}, {156, 120, 82}, {151, 123, 95}, {147, 127, 109},
+    {62, 112, 66},   {81, 125, 70},   {99, 139, 74},   {118, 152, 78},
+    {137, 157, 87},  {157, 163, 95},  {176, 168, 104}, {169, 152, 97},
+    {163, 136, 89},  {156, 120, 82},  {151, 123, 95},  {147, 127, 109},
     {142, 130, 122}, {169, 162, 157}, {196, 194, 192}, {248, 248, 252},
 };
 static const uint8_t water_hue[3] = {72, 116, 168};
@@ -111,7 +111,8 @@ uint16_t shade_ground(const yb_frame_t *frame, const yb_vertex_t *a, const yb_ve
         return pixel_of(frame, water_hue, shade);
     int32_t middle = (a->z_q8 + b->z_q8 + c->z_q8) / 3 - frame->map->low_q8;
     middle = fix_clamp(middle, 0, frame->map->high_q8 - frame->map->low_q8);
-    int32_t hue = fix_min((int32_t)(((uint32_t)middle * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
+    int32_t hue =
+        fix_min((int32_t)(((uint32_t)middle * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
     return pixel_of(frame, ground_hue[hue], shade);
 }
 

@@ -17,7 +17,9 @@ const uint8_t split_child[8][SPLIT_CHILDREN][3] = {
 /* fix_length is a norm, so a child's longest edge exceeds the limit by at most half of what its
  * parent's did: from below 2^17 that takes 17 levels.
  */
-enum { LEVELS = 18 };
+enum {
+    LEVELS = 18
+};
 
 typedef struct {
     const yb_vertex_t *corner[3];
@@ -85,7 +87,8 @@ static int64_t side(const yb_vertex_t *a, const yb_vertex_t *b, int32_t x, int32
 
 static bool holds(const yb_vertex_t *const p[3], int32_t x, int32_t y)
 {
-    return side(p[0], p[1], x, y) >= 0 && side(p[1], p[2], x, y) >= 0 && side(p[2], p[0], x, y) >= 0;
+    return side(p[0], p[1], x, y) >= 0 && side(p[1], p[2], x, y) >= 0 &&
+           side(p[2], p[0], x, y) >= 0;
 }
 
 /* Height of the plane through three points at a place inside them. Heights are below 2^19 and areas
@@ -106,7 +109,7 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
 {
     int32_t x = fix_min(x_q8, map->east_q8);
     int32_t y = fix_min(y_q8, map->north_q8);
-    yb_vertex_t corner[3];
+    yb_vertex_t corner[3] = {{0}};
     const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
     for (int t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++)

@@ -107,7 +107,8 @@ static void legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
             continue;
         }
         uint16_t left = turn_left(map, load, t, p);
-        if (left == NO_TRIANGLE || map->triangle[left][next3(corner_of(map, left, p))] == first_spoke)
+        if (left == NO_TRIANGLE ||
+            map->triangle[left][next3(corner_of(map, left, p))] == first_spoke)
             return;
         t = left;
     }
@@ -258,8 +259,8 @@ static uint16_t towards(const yb_map_t *map, const yb_load_t *load, yb_index_t a
     return NO_TRIANGLE;
 }
 
-/* Takes one vertex off the channel of ab: walks from t (at a) along ab and removes the first vertex at
- * which a side of the channel bulges away from ab. There is one: that farthest from ab.
+/* Takes one vertex off the channel of ab: walks from t (at a) along ab and removes the first vertex
+ * at which a side of the channel bulges away from ab. There is one: that farthest from ab.
  */
 static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, uint16_t t, yb_index_t a,
                                   yb_index_t b)

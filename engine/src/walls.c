@@ -4,6 +4,7 @@
  * edge to the pixel.
  */
 #include "camera.h"
+#include "clip.h"
 #include "refine.h"
 #include "shade.h"
 
@@ -12,6 +13,19 @@ static bool on_one_side(const yb_map_t *map, const yb_vertex_t *a, const yb_vert
 {
     return (a->x_q8 == b->x_q8 && (a->x_q8 == 0 || a->x_q8 == map->east_q8)) ||
            (a->y_q8 == b->y_q8 && (a->y_q8 == 0 || a->y_q8 == map->north_q8));
+}
+
+static void draw_half(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3],
+                      uint16_t pixel)
+{
+    raster_point_t corner[3];
+    raster_setup_t setup;
+    if (clip_needs(frame, p, corner)) {
+        frame->stats.drawn += clip_draw(frame, raster, p, pixel) ? 1 : 0;
+    } else if (raster_setup(raster, corner, &setup)) {
+        raster_fill(raster, &setup, pixel);
+        frame->stats.drawn++;
+    }
 }
 
 static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point_t *a,
@@ -25,8 +39,8 @@ static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point
     const yb_point_t *const upper[3] = {b, a, &a_foot};
     const yb_point_t *const lower[3] = {b, &a_foot, &b_foot};
     frame->stats.refined += 2;
-    frame->stats.drawn += clip_draw(frame, raster, upper, pixel) ? 1 : 0;
-    frame->stats.drawn += clip_draw(frame, raster, lower, pixel) ? 1 : 0;
+    draw_half(frame, raster, upper, pixel);
+    draw_half(frame, raster, lower, pixel);
 }
 
 /* Refines one edge from a to b, left to right: level[i].middle[0] is the point where the part in

@@ -6,6 +6,9 @@
     NUMBER_TEXT(YB_VERSION_MAJOR)                                                                  \
     "." NUMBER_TEXT(YB_VERSION_MINOR) "." NUMBER_TEXT(YB_VERSION_PATCH)
 
+/* What the console's N turns by. */
+#define STRIDE_STEPS 16
+
 static void say(const yb_turntable_port_t *port, const char *text)
 {
     while (*text != '\0')
@@ -89,9 +92,9 @@ static void draw(yb_turntable_t *table)
         say_frame(table, "frame");
 }
 
-static void draw_next(yb_turntable_t *table)
+static void draw_next(yb_turntable_t *table, unsigned steps)
 {
-    table->azimuth_bam = (uint16_t)(table->azimuth_bam + YB_VIEWER_STEP_BAM);
+    table->azimuth_bam = (uint16_t)(table->azimuth_bam + steps * YB_VIEWER_STEP_BAM);
     draw(table);
 }
 
@@ -107,14 +110,16 @@ void yb_turntable_begin(yb_turntable_t *table, const yb_turntable_port_t *port)
 
 void yb_turntable_step(yb_turntable_t *table)
 {
-    switch (table->port->read(table->port->context)) {
+    const int command = table->port->read(table->port->context);
+    switch (command) {
     case 'p':
         table->paused = true;
         say_frame(table, "paused");
         break;
     case 'n':
+    case 'N':
         if (table->paused) {
-            draw_next(table);
+            draw_next(table, command == 'N' ? STRIDE_STEPS : 1);
             say_frame(table, "paused");
         }
         break;
@@ -123,7 +128,7 @@ void yb_turntable_step(yb_turntable_t *table)
         break;
     default:
         if (!table->paused)
-            draw_next(table);
+            draw_next(table, 1);
         break;
     }
 }

@@ -10,6 +10,7 @@
  *
  *     p    pause after the frame being drawn        answer: paused azimuth=00512 hash=89abcdef
  *     n    draw the next frame; only while paused   the same answer
+ *     N    the same, but turn by 16 steps at once   the same answer
  *     r    run on
  *
  * Anything else is passed over. azimuth is in binary angle, hash is yb_viewer_draw's. A board

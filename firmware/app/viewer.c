@@ -30,6 +30,7 @@ uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_ban
         .width = YB_VIEWER_WIDTH, .height = YB_VIEWER_HEIGHT, .format = YB_GREY4};
     yb_view_t view;
     yb_view_init(&view, &viewer->map);
+    view.exaggerate_q8 = YB_VIEWER_EXAGGERATE_Q8;
     yb_view_orbit(&view, &viewer->map, azimuth_bam, YB_DEGREES(YB_VIEWER_ELEVATION),
                   YB_VIEWER_DISTANCE_Q8);
 

@@ -27,7 +27,9 @@ static const verb_t verbs[] = {
     {"show", cli_show, "draw it on a real panel"},
     {"ping", cli_ping, "look for a device"},
 };
-enum { VERBS = sizeof(verbs) / sizeof(verbs[0]) };
+enum {
+    VERBS = sizeof(verbs) / sizeof(verbs[0])
+};
 
 static const char *verb_name = "";
 

@@ -5,7 +5,11 @@
 #include <stdbool.h>
 
 /* Exit codes, a contract with users' scripts. */
-enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
+enum {
+    CLI_OK = 0,
+    CLI_FAILED = 1,
+    CLI_USAGE = 2
+};
 
 /* One verb: argv[0] is the verb itself, for getopt_long. */
 typedef int (*cli_verb_fn)(int argc, char **argv);

@@ -9,6 +9,7 @@
 #include "comparison.h"
 #include "fidelity.h"
 #include "grid.h"
+#include "line_grid.h"
 #include "output.h"
 #include "picture.h"
 #include "sheet.h"
@@ -19,19 +20,22 @@ enum {
     OPTION_CENTER,
     OPTION_KM,
     OPTION_CELL,
+    OPTION_FIELD,
     OPTION_JSON,
     OPTION_SHEET,
     OPTION_FORCE,
     OPTION_HELP
 };
 enum {
-    LATTICE = 256
+    LATTICE = 256,
+    DEFAULT_KM = 20
 };
 
 static const struct option options[] = {{"window", required_argument, NULL, OPTION_WINDOW},
                                         {"center", required_argument, NULL, OPTION_CENTER},
                                         {"km", required_argument, NULL, OPTION_KM},
                                         {"cell", required_argument, NULL, OPTION_CELL},
+                                        {"field", required_argument, NULL, OPTION_FIELD},
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"sheet", required_argument, NULL, OPTION_SHEET},
                                         {"force", no_argument, NULL, OPTION_FORCE},
@@ -40,7 +44,7 @@ static const struct option options[] = {{"window", required_argument, NULL, OPTI
                                         {0}};
 
 typedef struct {
-    const char *input, *reference, *sheet;
+    const char *input, *reference, *field, *sheet;
     yb_window_t window;
     double km;
     bool json, force, help;
@@ -49,31 +53,34 @@ typedef struct {
 
 static void help(void)
 {
-    fputs("Usage: yamabiko evaluate MAP.yb REFERENCE [OPTION ...]\n"
-          "\n"
-          "Says how faithful a code is to the real relief. REFERENCE is a raster of heights (any\n"
-          "that GDAL reads) that covers what the code was made from; it is laid on the map's\n"
-          "lattice.\n"
-          "\n"
-          "  RMSE    root of the mean squared difference of height\n"
-          "  NRMSE   RMSE over the standard deviation of the real heights\n"
-          "  p90     what nine tenths of the differences do not exceed; max: the largest\n"
-          "  slope   mean difference of slope, in degrees\n"
-          "  K       similarity of the contours, 0 to 1, from overlap (a), distance (d) and\n"
-          "          curvature (c); K = (a + d + c) / 3, weighted by the polygons' lengths\n"
-          "  N M F   points, contours and the bits of the 1985 paper's code, 12 N + 20 M + 8\n"
-          "\n"
-          "  --window XMIN YMIN XMAX YMAX   part of the reference, in its own coordinates\n"
-          "  --center LON LAT --km S        a square of S km round a place on earth (WGS 84)\n"
-          "  --cell M            metres per cell of a reference that does not say (default 30)\n"
-          "  --json              print it all as JSON\n"
-          "  --sheet FILE        a page with contours, polygons, both reliefs and these figures:\n"
-          "                      a PNG file; the view options below hold for its reliefs\n"
-          "  --force             overwrite what exists\n"
-          "  --help              this text\n"
-          "\n"
-          "View (of --sheet; its size is fixed):\n",
-          stdout);
+    fputs(
+        "Usage: yamabiko evaluate MAP.yb REFERENCE [OPTION ...]\n"
+        "\n"
+        "Says how faithful a code is to what it was made from. REFERENCE is a raster of heights\n"
+        "or a vector file of contour lines with their heights, in any format of GDAL. The map is\n"
+        "compared with contour lines themselves for K, with a surface through them otherwise.\n"
+        "\n"
+        "  RMSE    root of the mean squared difference of height\n"
+        "  NRMSE   RMSE over the standard deviation of the real heights\n"
+        "  p90     what nine tenths of the differences do not exceed; max: the largest\n"
+        "  slope   mean difference of slope, in degrees\n"
+        "  K       similarity of the contours, 0 to 1, from overlap (a), distance (d) and\n"
+        "          curvature (c); K = (a + d + c) / 3, weighted by the polygons' lengths\n"
+        "  N M F   points, contours and the bits of the 1985 paper's code, 12 N + 20 M + 8\n"
+        "\n"
+        "  --window XMIN YMIN XMAX YMAX   part of the reference, in its own coordinates\n"
+        "  --center LON LAT               a square round a place on earth (WGS 84) ...\n"
+        "  --km S              ... of so many kilometres a side (default 20)\n"
+        "  --cell M            metres per cell of a reference that does not say (default 30)\n"
+        "  --field NAME        the attribute of contour lines that is the height\n"
+        "  --json              print it all as JSON\n"
+        "  --sheet FILE        a page with contours, polygons, both reliefs and these figures:\n"
+        "                      a PNG file; the view options below hold for its reliefs\n"
+        "  --force             overwrite what exists\n"
+        "  --help              this text\n"
+        "\n"
+        "View of --sheet (--size, --format and --band do not apply):\n",
+        stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"
           "Example:\n"
@@ -111,7 +118,6 @@ static int take_window(request_t *request, int answer, int argc, char **argv)
     case OPTION_KM:
         if (!cli_number(optarg, &request->km) || request->km <= 0)
             return cli_usage("--km: '%s' is not a length above 0", optarg);
-        request->window.side_m = request->km * 1000;
         return CLI_OK;
     default:
         if (!cli_number(optarg, &request->window.cell_m) || request->window.cell_m <= 0)
@@ -134,6 +140,9 @@ static int take(request_t *request, int answer, int argc, char **argv)
     case OPTION_KM:
     case OPTION_CELL:
         return take_window(request, answer, argc, argv);
+    case OPTION_FIELD:
+        request->field = optarg;
+        return CLI_OK;
     case OPTION_JSON:
         request->json = true;
         return CLI_OK;
@@ -151,15 +160,20 @@ static int take(request_t *request, int answer, int argc, char **argv)
     }
 }
 
-static int check(const request_t *request)
+static int check(request_t *request)
 {
     yb_error_t error;
+    request->window.side_m = 1000 * (request->km > 0 ? request->km : DEFAULT_KM);
     if (request->input == NULL)
-        return cli_usage("name one code and one raster: MAP.yb REFERENCE");
-    if ((request->window.kind == YB_WINDOW_CENTER) != (request->km > 0))
-        return cli_usage("--center and --km belong together");
+        return cli_usage("name one code and one reference: MAP.yb REFERENCE");
+    if (request->km > 0 && request->window.kind != YB_WINDOW_CENTER)
+        return cli_usage("--km needs --center");
     if (request->json && request->sheet != NULL && strcmp(request->sheet, "-") == 0)
         return cli_usage("--json and '--sheet -' both want the standard output");
+    if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||
+        yb_view_options_given(&request->view, YB_OPTION_FORMAT) ||
+        yb_view_options_given(&request->view, YB_OPTION_BAND))
+        return cli_usage("--size, --format and --band do not apply: the sheet has its own size");
     if (!yb_view_options_check(&request->view, &error))
         return cli_usage("%s", error.text);
     return CLI_OK;
@@ -192,6 +206,13 @@ static void print_fidelity(const yb_fidelity_t *fidelity)
                fidelity->detail_rise_m[i]);
 }
 
+/* The last part of the path. */
+static const char *title_of(const request_t *request)
+{
+    const char *slash = request->input != NULL ? strrchr(request->input, '/') : NULL;
+    return slash != NULL ? slash + 1 : request->input;
+}
+
 static bool write_sheet(const request_t *request, yb_code_file_t *file,
                         const yb_comparison_t *comparison, const yb_fidelity_t *fidelity,
                         yb_error_t *error)
@@ -201,10 +222,8 @@ static bool write_sheet(const request_t *request, yb_code_file_t *file,
     size_t size = 0;
     if (!yb_view_options_apply(&request->view, &file->map, &view, error))
         return false;
-    const char *slash = strrchr(request->input, '/');
     uint8_t *png = NULL;
-    if (yb_sheet_draw(&sheet, slash != NULL ? slash + 1 : request->input, file, comparison,
-                      fidelity, &view))
+    if (yb_sheet_draw(&sheet, title_of(request), file, comparison, fidelity, &view))
         png = yb_picture_png(&sheet, &size);
     yb_picture_free(&sheet);
     const bool good = png != NULL
@@ -215,11 +234,11 @@ static bool write_sheet(const request_t *request, yb_code_file_t *file,
 }
 
 static bool evaluate(const request_t *request, yb_code_file_t *file, const yb_grid_t *reference,
-                     yb_error_t *error)
+                     const yb_lines_t *lines, yb_error_t *error)
 {
     yb_comparison_t comparison;
     yb_fidelity_t fidelity;
-    if (!yb_comparison_make(&comparison, file, reference, error))
+    if (!yb_comparison_make(&comparison, file, reference, lines, error))
         return false;
     bool good = yb_fidelity_measure(&fidelity, file, &comparison) ||
                 yb_error_set(error, "not enough memory to compare %s with %s", request->input,
@@ -251,9 +270,17 @@ static int run(const request_t *request)
     yb_code_file_t *file = yb_code_file_read(request->input, &error);
     if (file == NULL)
         return cli_fail("%s", error.text);
-    yb_grid_t *reference = yb_grid_read(request->reference, &request->window, LATTICE, &error);
-    const bool good = reference != NULL && evaluate(request, file, reference, &error);
+    yb_lines_t *lines = NULL;
+    yb_grid_t *reference = NULL;
+    if (yb_lines_is_vector(request->reference)) {
+        lines = yb_lines_from_vector(request->reference, request->field, &request->window, &error);
+        reference = lines != NULL ? yb_line_grid_new(lines, &error) : NULL;
+    } else {
+        reference = yb_grid_read(request->reference, &request->window, LATTICE, &error);
+    }
+    const bool good = reference != NULL && evaluate(request, file, reference, lines, &error);
     yb_grid_free(reference);
+    yb_lines_free(lines);
     yb_code_file_free(file);
     return good ? CLI_OK : cli_fail("%s", error.text);
 }

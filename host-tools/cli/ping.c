@@ -6,7 +6,11 @@
 
 #include <usb_link.h>
 
-enum { OPTION_USB = 256, OPTION_JSON, OPTION_HELP };
+enum {
+    OPTION_USB = 256,
+    OPTION_JSON,
+    OPTION_HELP
+};
 
 static const struct option options[] = {{"usb", no_argument, NULL, OPTION_USB},
                                         {"json", no_argument, NULL, OPTION_JSON},

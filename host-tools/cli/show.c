@@ -1,5 +1,6 @@
 #include "cli.h"
 
+#include <assert.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
@@ -94,9 +95,9 @@ static int take(request_t *request, int answer, int argc, char **argv)
         return request->panel != NULL ? CLI_OK : cli_usage("there is no panel '%s'", optarg);
     case OPTION_BUS:
         request->bus = optarg;
-        return strcmp(optarg, "gpiod") == 0 ? CLI_OK
-                                            : cli_usage("there is no bus '%s'; there is: gpiod",
-                                                        optarg);
+        return strcmp(optarg, "gpiod") == 0
+                   ? CLI_OK
+                   : cli_usage("there is no bus '%s'; there is: gpiod", optarg);
     case OPTION_GPIOCHIP:
         request->pins.chip = optarg;
         return CLI_OK;
@@ -139,6 +140,7 @@ static int check(request_t *request)
 
 static int show(const request_t *request, const yb_still_t *still)
 {
+    assert(request->panel != NULL); /* check() has seen to it */
     char why[YB_GPIOD_ERROR_BYTES];
     yb_gpiod_bus_t *bus = yb_gpiod_bus_open(&request->pins, why, sizeof why);
     if (bus == NULL)
@@ -177,7 +179,11 @@ int cli_show(int argc, char **argv)
 {
     request_t request = {
         .view = yb_view_options_default(),
-        .pins = {.chip = "gpiochip0", .sck = -1, .mosi = -1, .cs = -1, .dc = -1,
+        .pins = {.chip = "gpiochip0",
+                 .sck = -1,
+                 .mosi = -1,
+                 .cs = -1,
+                 .dc = -1,
                  .reset = YB_GPIOD_NOT_WIRED},
     };
     int answer = 0;

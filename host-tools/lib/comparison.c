@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* How much two frames may differ and still be one: a lattice has at most 255 steps, and a window
  * named by the user is cut at whole cells on both sides.
@@ -26,29 +27,35 @@ static bool sizes_fit(const yb_comparison_t *comparison, const yb_grid_t *refere
     return true;
 }
 
+/* Heights of the map at the real relief's cells, on the nearest 1/256 step. */
+static float *map_heights(const yb_comparison_t *comparison, const yb_map_t *map)
+{
+    const uint32_t columns = comparison->columns, rows = comparison->rows;
+    float *z_m = malloc((size_t)columns * rows * sizeof(*z_m));
+    for (uint32_t j = 0; z_m != NULL && j < rows; j++) {
+        const uint16_t y = (uint16_t)lround((double)map->north_q8 * j / (rows - 1));
+        for (uint32_t i = 0; i < columns; i++) {
+            const uint16_t x = (uint16_t)lround((double)map->east_q8 * i / (columns - 1));
+            z_m[(size_t)j * columns + i] = (float)yb_map_z_m(map, yb_map_height(map, x, y));
+        }
+    }
+    return z_m;
+}
+
 static bool sample_heights(yb_comparison_t *comparison, const yb_code_file_t *file,
                            const yb_grid_t *reference)
 {
-    const size_t cells = (size_t)comparison->columns * comparison->rows;
-    comparison->reference_m = malloc(cells * sizeof(float));
+    const size_t columns = comparison->columns, rows = comparison->rows;
+    comparison->reference_m = malloc(columns * rows * sizeof(float));
     if (comparison->reference_m == NULL)
         return false;
-    const double wide = yb_grid_width_m(reference), deep = yb_grid_depth_m(reference);
-    for (uint32_t j = 0; j < comparison->rows; j++) {
-        for (uint32_t i = 0; i < comparison->columns; i++) {
-            const double x = wide * i / (comparison->columns - 1);
-            const double y = deep * j / (comparison->rows - 1);
-            comparison->reference_m[(size_t)j * comparison->columns + i] =
-                (float)yb_grid_height(reference, x, y);
-        }
-    }
-    const uint32_t longer =
-        comparison->columns > comparison->rows ? comparison->columns : comparison->rows;
-    const yb_raster_t raster = yb_raster_on_map(&file->map, longer);
+    for (size_t j = 0; j < rows; j++)
+        memcpy(comparison->reference_m + j * columns,
+               reference->height_m + (rows - 1 - j) * columns, columns * sizeof(float));
     yb_map_t smooth = file->map;
     smooth.detail = false;
-    comparison->smooth_m = yb_raster_heights(&smooth, &raster);
-    comparison->detail_m = yb_raster_heights(&file->map, &raster);
+    comparison->smooth_m = map_heights(comparison, &smooth);
+    comparison->detail_m = map_heights(comparison, &file->map);
     return comparison->smooth_m != NULL && comparison->detail_m != NULL;
 }
 
@@ -94,25 +101,63 @@ static bool cut_mesh(yb_isolines_t *lines, const yb_mesh_t *mesh, const yb_isoli
     return true;
 }
 
+/* One given line, scaled to the map's frame, as an isoline of a coded height. */
+static bool take_line(yb_isoline_t *original, const yb_comparison_t *comparison,
+                      const yb_lines_t *lines, const yb_line_t *line, double height_m)
+{
+    const size_t count = (size_t)line->count;
+    *original = (yb_isoline_t){.count = count,
+                               .closed = line->closed,
+                               .height_m = height_m,
+                               .point = malloc(count * sizeof(yb_point2_t))};
+    for (size_t i = 0; original->point != NULL && i < count; i++)
+        original->point[i] =
+            (yb_point2_t){line->place[i].x_m / lines->width_m * comparison->east_m,
+                          line->place[i].y_m / lines->depth_m * comparison->north_m};
+    return original->point != NULL;
+}
+
+/* Of every coded height the given lines that lie nearer to it than what the code can tell apart. */
+static bool take_lines(yb_comparison_t *comparison, const yb_lines_t *lines, const yb_map_t *map)
+{
+    const double near_m = yb_unit_64th_m(map->unit) / 128.0 + yb_map_cell_m(map) / 256;
+    const size_t most = comparison->coded.count * (size_t)lines->count;
+    yb_isolines_t *original = &comparison->original;
+    original->line = calloc(most + 1, sizeof(*original->line));
+    bool good = original->line != NULL;
+    for (size_t i = 0; good && i < comparison->coded.count; i++) {
+        const double height_m = comparison->coded.line[i].height_m;
+        if (yb_isolines_at(original, height_m).count != 0)
+            continue;
+        for (int k = 0; good && k < lines->count; k++) {
+            const yb_line_t *line = &lines->line[k];
+            if (line->count < 2 || fabs(line->height_m - height_m) > near_m)
+                continue;
+            good = take_line(&original->line[original->count], comparison, lines, line, height_m);
+            original->count += good;
+        }
+    }
+    return good;
+}
+
 bool yb_comparison_make(yb_comparison_t *comparison, const yb_code_file_t *file,
-                        const yb_grid_t *reference, yb_error_t *error)
+                        const yb_grid_t *reference, const yb_lines_t *lines, yb_error_t *error)
 {
     const yb_map_t *map = &file->map;
-    const double cell_m = yb_map_cell_m(map);
-    /* Computed as the meshes' coordinates are: ends of open lines lie exactly on this frame. */
-    *comparison = (yb_comparison_t){.columns = map->east_q8 / 256u + 1,
-                                    .rows = map->north_q8 / 256u + 1,
-                                    .cell_m = cell_m,
-                                    .east_m = map->east_q8 * (cell_m / 256),
-                                    .north_m = map->north_q8 * (cell_m / 256)};
+    *comparison = (yb_comparison_t){.columns = (uint32_t)reference->columns,
+                                    .rows = (uint32_t)reference->rows,
+                                    .east_m = yb_map_east_m(map),
+                                    .north_m = yb_map_north_m(map)};
     if (!sizes_fit(comparison, reference, error))
         return false;
     if (sample_heights(comparison, file, reference) &&
         yb_mesh_from_lattice(&comparison->reference, comparison->reference_m, comparison->columns,
-                             comparison->rows, cell_m) &&
+                             comparison->rows, comparison->east_m, comparison->north_m) &&
         yb_mesh_from_map(&comparison->surface, map, YB_REFERENCE_Q8) &&
         take_polygons(comparison, file) &&
-        cut_mesh(&comparison->original, &comparison->reference, &comparison->coded) &&
+        (lines != NULL
+             ? take_lines(comparison, lines, map)
+             : cut_mesh(&comparison->original, &comparison->reference, &comparison->coded)) &&
         cut_mesh(&comparison->reproduced, &comparison->surface, &comparison->coded))
         return true;
     yb_comparison_free(comparison);

@@ -44,6 +44,9 @@ yb_lines_t *yb_lines_from_grid(const yb_grid_t *grid, const double *level_m, int
 yb_lines_t *yb_lines_from_vector(const char *path, const char *field, const yb_window_t *window,
                                  yb_error_t *error);
 
+/* True if GDAL reads the file as vectors and not as a raster. */
+bool yb_lines_is_vector(const char *path);
+
 /* NULL does nothing. */
 void yb_lines_free(yb_lines_t *lines);
 

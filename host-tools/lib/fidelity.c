@@ -20,12 +20,15 @@ static double standard_deviation(const float *value, size_t count)
     return sqrt(squares / (double)count);
 }
 
-/* Slope in degrees of the lattice square whose south-western point is at `sw`. */
-static double square_slope(const float *z_m, size_t sw, uint32_t columns, double cell_m)
+/* Slope in degrees of the square whose south-western cell is at `sw`. */
+static double square_slope(const yb_comparison_t *comparison, const float *z_m, size_t sw)
 {
+    const uint32_t columns = comparison->columns;
+    const double cell_x_m = comparison->east_m / (columns - 1);
+    const double cell_y_m = comparison->north_m / (comparison->rows - 1);
     const double a = (double)z_m[sw], b = (double)z_m[sw + 1];
     const double c = (double)z_m[sw + columns], d = (double)z_m[sw + columns + 1];
-    const double east = (b + d - a - c) / (2 * cell_m), north = (c + d - a - b) / (2 * cell_m);
+    const double east = (b + d - a - c) / (2 * cell_x_m), north = (c + d - a - b) / (2 * cell_y_m);
     return atan(hypot(east, north)) * 180 / acos(-1.0);
 }
 
@@ -35,9 +38,8 @@ static double slope_error(const yb_comparison_t *comparison, const float *z_m)
     for (uint32_t j = 0; j + 1 < comparison->rows; j++) {
         for (uint32_t i = 0; i + 1 < comparison->columns; i++) {
             const size_t sw = (size_t)j * comparison->columns + i;
-            sum += fabs(
-                square_slope(z_m, sw, comparison->columns, comparison->cell_m) -
-                square_slope(comparison->reference_m, sw, comparison->columns, comparison->cell_m));
+            sum += fabs(square_slope(comparison, z_m, sw) -
+                        square_slope(comparison, comparison->reference_m, sw));
         }
     }
     return sum / ((double)(comparison->columns - 1) * (comparison->rows - 1));
@@ -92,7 +94,7 @@ static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *co
     const uint32_t longer =
         comparison->columns > comparison->rows ? comparison->columns : comparison->rows;
     for (int i = 0; i < YB_ROUGHNESS_LAGS && (1u << i) < longer; i++) {
-        fidelity->lag_m[i] = comparison->cell_m * (1 << i);
+        fidelity->lag_m[i] = comparison->east_m / (comparison->columns - 1) * (1 << i);
         fidelity->reference_rise_m[i] = rise(comparison, comparison->reference_m, 1u << i);
         fidelity->detail_rise_m[i] = rise(comparison, comparison->detail_m, 1u << i);
         fidelity->lag_count++;

@@ -1,13 +1,13 @@
 /* How faithful a code is to the real relief, in figures.
  *
- * Heights are compared at the points of the map's lattice; e is a height of the code's reference
- * surface minus the real one.
+ * Heights are compared at the cells of the real relief, at most 256 a side; e is a height of the
+ * code's reference surface minus the real one.
  *   RMSE      root of the mean of e²
  *   NRMSE     RMSE over the standard deviation of the real heights
- *   p90, max  of |e|; p90: the least value that nine tenths of the points do not exceed
- *   slope     mean over the lattice's squares of |slope - real slope| in degrees; the slope of a
- *             square is that of the mean rise of its opposite sides
- *   roughness root of the mean squared rise between points that lie 1, 2, 4 … 64 steps apart, east
+ *   p90, max  of |e|; p90: the least value that nine tenths of the cells do not exceed
+ *   slope     mean over the squares between four cells of |slope - real slope| in degrees; the
+ *             slope of a square is that of the mean rise along its opposite sides
+ *   roughness root of the mean squared rise between cells that lie 1, 2, 4 … 64 cells apart, east
  *             or north: the real relief beside the map with detail
  * K and K_i: docs/similarity.md. N points, M contours (spot heights among both), F = 12N + 20M + 8
  * bits: the size of the 1985 paper's body, whatever the file's profile.

@@ -9,6 +9,7 @@
 #include <cpl_string.h>
 #include <gdal.h>
 #include <ogr_api.h>
+#include <ogr_srs_api.h>
 
 #include "output.h"
 
@@ -121,7 +122,7 @@ static bool write_heights(GDALDriverH driver, const char *path, const void *what
         good = GDALRasterIO(band, GF_Write, 0, j, columns, 1, row, columns, 1, GDT_Float32, 0, 0) ==
                CE_None;
     }
-    GDALDatasetH copy = good ? GDALCreateCopy(driver, path, memory, FALSE, NULL, NULL, NULL) : NULL;
+    GDALDatasetH copy = good ? GDALCreateCopy(driver, path, memory, TRUE, NULL, NULL, NULL) : NULL;
     good = copy != NULL;
     if (copy != NULL) {
         GDALClose(copy);
@@ -159,7 +160,12 @@ static bool write_lines(GDALDriverH driver, const char *path, const void *what)
     GDALDatasetH dataset = GDALCreate(driver, path, 0, 0, 0, GDT_Unknown, NULL);
     if (dataset == NULL)
         return false;
-    OGRLayerH layer = GDALDatasetCreateLayer(dataset, "contours", NULL, wkbLineString, NULL);
+    /* Without a system some formats assume degrees. */
+    OGRSpatialReferenceH metres = OSRNewSpatialReference(NULL);
+    OSRSetLocalCS(metres, "metres from the south-west corner");
+    OSRSetLinearUnits(metres, SRS_UL_METER, 1);
+    OGRLayerH layer = GDALDatasetCreateLayer(dataset, "contours", metres, wkbLineString, NULL);
+    OSRRelease(metres);
     OGRFieldDefnH field = OGR_Fld_Create("elevation", OFTReal);
     bool good = layer != NULL && OGR_L_CreateField(layer, field, TRUE) == OGRERR_NONE;
     OGR_Fld_Destroy(field);

@@ -31,6 +31,7 @@ static const float highest_m = 30000.0F;
 typedef struct {
     const char *path;
     GDALDatasetH dataset;
+    GDALDatasetH wrapped; /* what the dataset is a view of, or NULL */
     double transform[6];
     double bounds[4];           /* x min, y min, x max, y max of all of it */
     OGRSpatialReferenceH srs;   /* its own; borrowed; NULL if none */
@@ -137,12 +138,12 @@ static bool source_wrap(source_t *source, const double *corners, yb_error_t *err
     GDALTranslateOptions *options = GDALTranslateOptionsNew(words, NULL);
     CSLDestroy(words);
     int wrong = 0;
-    GDALDatasetH wrapped = GDALTranslate("", source->dataset, options, &wrong);
+    GDALDatasetH view = GDALTranslate("", source->dataset, options, &wrong);
     GDALTranslateOptionsFree(options);
-    if (wrapped == NULL)
+    if (view == NULL)
         return yb_error_set(error, "cannot read %s: %s", source->path, CPLGetLastErrorMsg());
-    GDALClose(source->dataset);
-    source->dataset = wrapped;
+    source->wrapped = source->dataset;
+    source->dataset = view;
     return true;
 }
 
@@ -411,6 +412,8 @@ yb_grid_t *yb_grid_read(const char *path, const yb_window_t *window, int most, y
         OSRDestroySpatialReference(source.local);
     if (source.dataset != NULL)
         GDALClose(source.dataset);
+    if (source.wrapped != NULL)
+        GDALClose(source.wrapped);
     CPLPopErrorHandler();
     return grid;
 }

@@ -14,10 +14,12 @@ typedef struct yb_judge yb_judge_t;
 yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side);
 void yb_judge_free(yb_judge_t *judge);
 
-/* Root of the mean squared difference in metres at the samples, refining to edges of 16 steps; a
- * negative number if the code is impossible. The judge keeps the differences until the next call.
+/* How bad a code is, in metres: root of the mean square of the height differences at the samples,
+ * to which those of the rises from sample to sample are added, at half weight. (Refined to edges
+ * of 16 steps.) A negative number if the code is impossible. The judge keeps the differences until
+ * the next call.
  */
-double yb_judge_rmse_m(yb_judge_t *judge, const yb_paper_t *paper);
+double yb_judge_score_m(yb_judge_t *judge, const yb_paper_t *paper);
 
 /* Where the surface judged last is farthest from the truth but within `share` (0 to 1, a random
  * number) of the samples' total squared error: a place drawn in proportion to it.

@@ -5,7 +5,9 @@
 #include <string.h>
 
 enum {
-    FRAME_CORNERS = 4
+    FRAME_CORNERS = 4,
+    SIDE_PARTS = 256,
+    FRAME_POINTS = 4 * SIDE_PARTS + 8 /* the most that a part of the frame can have */
 };
 
 /* Areas below this share of the frame are no regions. */
@@ -41,25 +43,49 @@ static double along_frame(yb_point2_t point, double east, double north)
     return along[side];
 }
 
-/* The frame's corners passed when going counter-clockwise from one of its points to another. */
-static size_t frame_corners(yb_point2_t from, yb_point2_t to, double east, double north,
-                            yb_point2_t corner[FRAME_CORNERS])
+/* The point of the frame at such a distance, which may be more than once round. */
+static yb_point2_t frame_point(double along, double east, double north)
 {
-    const yb_point2_t all[FRAME_CORNERS] = {{0, 0}, {east, 0}, {east, north}, {0, north}};
-    const double at[FRAME_CORNERS] = {0, east, east + north, east + north + east};
     const double round = 2 * (east + north);
-    const double first = along_frame(from, east, north);
-    double last = along_frame(to, east, north);
-    if (last <= first)
-        last += round;
+    if (along >= round)
+        along -= round;
+    if (along < east)
+        return (yb_point2_t){along, 0};
+    if (along < east + north)
+        return (yb_point2_t){east, along - east};
+    if (along < east + north + east)
+        return (yb_point2_t){east - (along - east - north), north};
+    return (yb_point2_t){0, fmax(north - (along - east - north - east), 0)};
+}
+
+/* Points of the frame between two of its points, counter-clockwise: the corners, and between them
+ * as many as it takes to come from one to the next in small steps. Without the two points.
+ */
+static size_t frame_points(yb_point2_t from, yb_point2_t to, double east, double north,
+                           yb_point2_t *point)
+{
+    const double corner[FRAME_CORNERS] = {east, east + north, east + north + east,
+                                          2 * (east + north)};
+    const double step = fmax(east, north) / SIDE_PARTS;
+    const double round = 2 * (east + north);
+    double at = along_frame(from, east, north), end = along_frame(to, east, north);
     size_t count = 0;
-    for (int i = 0; i < 2 * FRAME_CORNERS; i++) {
-        const int which = i % FRAME_CORNERS;
-        const double place = at[which] + (i < FRAME_CORNERS ? 0 : round);
-        if (place > first && place < last && count < FRAME_CORNERS)
-            corner[count++] = all[which];
+    if (end <= at)
+        end += round;
+    for (int i = 0; i <= 2 * FRAME_CORNERS && at < end; i++) {
+        const double next =
+            i == 2 * FRAME_CORNERS
+                ? end
+                : fmin(corner[i % FRAME_CORNERS] + (i < FRAME_CORNERS ? 0 : round), end);
+        if (next <= at)
+            continue;
+        const int parts = (int)ceil((next - at) / step);
+        for (int k = 1; k <= parts && count < FRAME_POINTS; k++)
+            point[count++] = frame_point(at + (next - at) * k / parts, east, north);
+        at = next;
     }
-    return count;
+    /* The last one is where the frame's part ends. */
+    return count > 0 ? count - 1 : 0;
 }
 
 /* A valid polygon from a ring of points, which need not be simple. */
@@ -97,18 +123,18 @@ static double twice_area(const yb_point2_t *ring, size_t count)
 static bool make_region(GEOSContextHandle_t geos, yb_region_t *region, const yb_isoline_t *line,
                         bool turned, double east, double north)
 {
-    *region = (yb_region_t){.count = line->count, .closed = line->closed};
-    region->point = malloc((line->count + FRAME_CORNERS) * sizeof(*region->point));
+    const size_t room = line->count + (line->closed ? 0 : FRAME_POINTS);
+    *region = (yb_region_t){.count = line->count, .boundary = line->count, .closed = line->closed};
+    region->point = calloc(room, sizeof(*region->point));
     if (region->point == NULL)
         return false;
     for (size_t i = 0; i < line->count; i++)
         region->point[i] = line->point[turned ? line->count - 1 - i : i];
-    size_t ring = region->count;
     if (!region->closed)
-        ring += frame_corners(region->point[ring - 1], region->point[0], east, north,
-                              region->point + ring);
-    if (ring >= 3)
-        region->shape = make_shape(geos, region->point, ring);
+        region->boundary += frame_points(region->point[line->count - 1], region->point[0], east,
+                                         north, region->point + line->count);
+    if (region->boundary >= 3)
+        region->shape = make_shape(geos, region->point, region->boundary);
     if (region->shape != NULL && GEOSArea_r(geos, region->shape, &region->area) == 1 &&
         region->area > east * north * least_share)
         return true;
@@ -151,23 +177,22 @@ double yb_region_overlap(GEOSContextHandle_t geos, const yb_region_t *a, const y
     return good && both > 0 ? fmin(common / both, 1) : 0;
 }
 
-static GEOSGeometry *line_of(GEOSContextHandle_t geos, const yb_region_t *region)
+static GEOSGeometry *boundary_of(GEOSContextHandle_t geos, const yb_region_t *region)
 {
-    const size_t count = region->count + (region->closed ? 1 : 0);
-    GEOSCoordSequence *sequence = GEOSCoordSeq_create_r(geos, (unsigned)count, 2);
+    GEOSCoordSequence *sequence = GEOSCoordSeq_create_r(geos, (unsigned)region->boundary + 1, 2);
     if (sequence == NULL)
         return NULL;
-    for (size_t i = 0; i < count; i++) {
-        const yb_point2_t point = region->point[i % region->count];
+    for (size_t i = 0; i <= region->boundary; i++) {
+        const yb_point2_t point = region->point[i % region->boundary];
         GEOSCoordSeq_setXY_r(geos, sequence, (unsigned)i, point.x, point.y);
     }
     return GEOSGeom_createLineString_r(geos, sequence);
 }
 
-double yb_region_line_distance(GEOSContextHandle_t geos, const yb_region_t *a, const yb_region_t *b)
+double yb_region_distance(GEOSContextHandle_t geos, const yb_region_t *a, const yb_region_t *b)
 {
     double distance = 0;
-    GEOSGeometry *first = line_of(geos, a), *second = line_of(geos, b);
+    GEOSGeometry *first = boundary_of(geos, a), *second = boundary_of(geos, b);
     const bool good = first != NULL && second != NULL &&
                       GEOSHausdorffDistance_r(geos, first, second, &distance) == 1;
     if (first != NULL)

@@ -12,9 +12,10 @@
 
 /* A region and the line that bounds it, run so that the region is on its left. */
 typedef struct {
-    yb_point2_t *point; /* the line; a closed one does not repeat its first point */
-    size_t count;
-    bool closed;
+    yb_point2_t *point;  /* the line, then the part of the frame back to its start */
+    size_t count;        /* points of the line; a closed one does not repeat its first point */
+    size_t boundary;     /* points of both: all round the region */
+    bool closed;         /* the line */
     GEOSGeometry *shape; /* valid: a polygon, or several that touch */
     double area;
 } yb_region_t;
@@ -34,10 +35,10 @@ void yb_region_free(GEOSContextHandle_t geos, yb_region_t *region);
 /* Area of the intersection over area of the union, 0 to 1. */
 double yb_region_overlap(GEOSContextHandle_t geos, const yb_region_t *a, const yb_region_t *b);
 
-/* Greatest distance from a point of either line to the other line (Hausdorff), measured at their
- * vertices. Negative if GEOS fails.
+/* Greatest distance from a point of either region's boundary to the other boundary (Hausdorff),
+ * measured at their vertices; where they are the frame, these are 1/256 of its longer side apart or
+ * closer. Negative if GEOS fails.
  */
-double yb_region_line_distance(GEOSContextHandle_t geos, const yb_region_t *a,
-                               const yb_region_t *b);
+double yb_region_distance(GEOSContextHandle_t geos, const yb_region_t *a, const yb_region_t *b);
 
 #endif

@@ -4,6 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Inner points keep so many steps away from the frame: nearer ones would stand for heights of the
+ * frame itself, with a cliff along its side.
+ */
+enum {
+    MARGIN = 8
+};
+
 /* Where the search stands. */
 typedef struct {
     const yb_search_t *task;
@@ -41,6 +48,21 @@ static double random_bell(state_t *state, double size)
 {
     double sum = random_share(state) + random_share(state) + random_share(state) - 1.5;
     return sum * size;
+}
+
+/* On small frames a point may lie anywhere inside. */
+static int margin_of(int size)
+{
+    return size > 4 * MARGIN ? MARGIN : 1;
+}
+
+/* Whether an inner point may lie there. */
+static bool is_inner(const yb_paper_t *paper, int x, int y)
+{
+    int margin_x = margin_of(paper->east);
+    int margin_y = margin_of(paper->north);
+    return x >= margin_x && y >= margin_y && x <= paper->east - margin_x &&
+           y <= paper->north - margin_y;
 }
 
 static int contour_of(const yb_paper_t *paper, int point)
@@ -111,7 +133,7 @@ static bool change_point(state_t *state)
     int move_y = spot ? (int)lround(random_bell(state, 2 * reach)) : random_move(state, reach);
     int x = at->x + move_x;
     int y = at->y + move_y;
-    if (x < 1 || y < 1 || x >= paper->east || y >= paper->north)
+    if (!is_inner(paper, x, y))
         return false;
     at->x = (uint8_t)x;
     at->y = (uint8_t)y;
@@ -134,7 +156,7 @@ static bool change_place(state_t *state)
     for (int i = first; i < first + paper->contour[contour].count; i++) {
         int new_x = paper->point[i].x + x;
         int new_y = paper->point[i].y + y;
-        if (new_x < 1 || new_y < 1 || new_x >= paper->east || new_y >= paper->north)
+        if (!is_inner(paper, new_x, new_y))
             return false;
         paper->point[i] = (yb_step_t){(uint8_t)new_x, (uint8_t)new_y};
     }
@@ -148,6 +170,31 @@ static uint16_t moved_height(state_t *state, uint16_t height)
     return (uint16_t)clamp((int)lround(height + move), 0, UINT16_MAX);
 }
 
+/* Index of the given level nearest to a height. */
+static int nearest_level(const yb_search_t *task, double height)
+{
+    int best = 0;
+    for (int i = 1; i < task->levels; i++)
+        if (fabs(task->level[i] - height) < fabs(task->level[best] - height))
+            best = i;
+    return best;
+}
+
+/* The height of a new line that should lie at `height`. */
+static uint16_t line_height(const state_t *state, double height)
+{
+    const yb_search_t *task = state->task;
+    return task->levels > 0 ? task->level[nearest_level(task, height)] : (uint16_t)lround(height);
+}
+
+/* The next level above or below. */
+static uint16_t other_level(state_t *state, uint16_t height)
+{
+    const yb_search_t *task = state->task;
+    int step = random_below(state, 2) == 0 ? -1 : 1;
+    return task->level[clamp(nearest_level(task, height) + step, 0, task->levels - 1)];
+}
+
 static bool change_height(state_t *state)
 {
     yb_paper_t *paper = &state->next;
@@ -155,8 +202,13 @@ static bool change_height(state_t *state)
     if (contours <= 0)
         return false;
     int contour = state->task->pinned + random_below(state, contours);
-    paper->contour[contour].height = moved_height(state, paper->contour[contour].height);
-    return true;
+    uint16_t *height = &paper->contour[contour].height;
+    uint16_t before = *height;
+    if (paper->contour[contour].count > 1 && state->task->levels > 0)
+        *height = other_level(state, before);
+    else
+        *height = moved_height(state, before);
+    return *height != before;
 }
 
 static bool change_corner(state_t *state)
@@ -203,7 +255,7 @@ static bool add_point(state_t *state)
     double off_y = along * (b.y - a.y) + side * (b.x - a.x);
     int x = a.x + (int)lround(off_x / unit) * unit;
     int y = a.y + (int)lround(off_y / unit) * unit;
-    if (x < 1 || y < 1 || x >= paper->east || y >= paper->north)
+    if (!is_inner(paper, x, y))
         return false;
     return yb_paper_insert(paper, contour, point + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
 }
@@ -251,8 +303,10 @@ static yb_step_t wanted_place(state_t *state)
     double depth = yb_grid_depth_m(state->task->grid);
     int x = (int)lround(east_m / width * paper->east + random_bell(state, 8));
     int y = (int)lround(north_m / depth * paper->north + random_bell(state, 8));
-    return (yb_step_t){(uint8_t)clamp(x, 1, paper->east - 1),
-                       (uint8_t)clamp(y, 1, paper->north - 1)};
+    int margin_x = margin_of(paper->east);
+    int margin_y = margin_of(paper->north);
+    return (yb_step_t){(uint8_t)clamp(x, margin_x, paper->east - margin_x),
+                       (uint8_t)clamp(y, margin_y, paper->north - margin_y)};
 }
 
 static uint16_t true_height(const state_t *state, double x, double y)
@@ -289,12 +343,12 @@ static bool add_ring(state_t *state)
         double angle = turn + 6.2831853 * i / count;
         int x = middle.x + (int)lround(radius * cos(angle) / unit) * unit;
         int y = middle.y + (int)lround(radius * sin(angle) / unit) * unit;
-        if (x < 1 || y < 1 || x >= paper->east || y >= paper->north)
+        if (!is_inner(paper, x, y))
             return false;
         point[i] = (yb_step_t){(uint8_t)x, (uint8_t)y};
         sum += true_height(state, x, y);
     }
-    return yb_paper_append(paper, (uint16_t)lround(sum / count), false, point, count);
+    return yb_paper_append(paper, line_height(state, sum / count), false, point, count);
 }
 
 /* A place on one of the four sides, whose coordinates are multiples of the lattice's difference. */
@@ -328,7 +382,7 @@ static bool add_crossing(state_t *state)
     double sum = true_height(state, x, y);
     for (int i = 0; i < 2; i++)
         sum += true_height(state, point[i].x, point[i].y);
-    return yb_paper_append(paper, (uint16_t)lround(sum / 3), true, point, 2) &&
+    return yb_paper_append(paper, line_height(state, sum / 3), true, point, 2) &&
            yb_paper_split(paper);
 }
 
@@ -370,7 +424,7 @@ static bool choose_change(state_t *state)
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
 {
     state_t *state = calloc(1, sizeof(*state));
-    double best = yb_judge_rmse_m(search->judge, paper);
+    double best = yb_judge_score_m(search->judge, paper);
     if (state == NULL || best < 0) {
         free(state);
         return best;
@@ -389,7 +443,7 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
         state->next = state->now;
         if (!choose_change(state) || yb_paper_size(&state->next) > search->most_bytes)
             continue;
-        double next = yb_judge_rmse_m(search->judge, &state->next);
+        double next = yb_judge_score_m(search->judge, &state->next);
         if (next < 0)
             continue;
         double worse = (next - now) / (heat * search->grid->std_m);

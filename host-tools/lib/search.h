@@ -13,7 +13,9 @@ typedef struct {
     const yb_grid_t *grid;
     yb_judge_t *judge;
     size_t most_bytes;
-    int pinned; /* so many contours at the front stay as they are: the summit */
+    int pinned;            /* so many contours at the front stay as they are: the summit */
+    const uint16_t *level; /* heights that lines may have, rising, in the code's units */
+    int levels;            /* and how many; 0: any height */
     long trials;
     double hot, cold; /* temperatures at begin and end, as shares of the grid's std_m */
     uint64_t seed;
@@ -22,8 +24,8 @@ typedef struct {
     void *context;
 } yb_search_t;
 
-/* Improves the code in place, which must be possible at the start. Answers its RMSE in metres at
- * the judge's samples.
+/* Improves the code in place, which must be possible at the start. Answers the
+ * judge's score of it.
  */
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper);
 

@@ -251,12 +251,13 @@ static bool draw_panels(page_t *page, const yb_view_t *view)
 static bool copy_page(yb_picture_t *sheet, cairo_surface_t *surface)
 {
     cairo_surface_flush(surface);
-    const unsigned char *row = cairo_image_surface_get_data(surface);
-    if (row == NULL || !yb_picture_init(sheet, WIDTH, HEIGHT, 3))
+    const unsigned char *data = cairo_image_surface_get_data(surface);
+    if (data == NULL || !yb_picture_init(sheet, WIDTH, HEIGHT, 3))
         return false;
+    const int stride = cairo_image_surface_get_stride(surface);
     uint8_t *sample = sheet->samples;
-    for (int j = 0; j < HEIGHT; j++, row += cairo_image_surface_get_stride(surface)) {
-        const uint32_t *pixel = (const uint32_t *)(const void *)row;
+    for (int j = 0; j < HEIGHT; j++) {
+        const uint32_t *pixel = (const uint32_t *)(const void *)(data + (size_t)j * (size_t)stride);
         for (int i = 0; i < WIDTH; i++, sample += 3) {
             sample[0] = (uint8_t)(pixel[i] >> 16);
             sample[1] = (uint8_t)(pixel[i] >> 8);

@@ -124,36 +124,37 @@ static double curvature_agreement(const arc_t *original, const arc_t *reproduced
     return (double)agree / YB_SIMILARITY_STEPS;
 }
 
-/* The line whose region overlaps `target` most. The region is left in *best; the result is how much
- * they overlap, 0 if none does.
- */
-static double match(GEOSContextHandle_t geos, const yb_region_t *target, const yb_isolines_t *lines,
-                    double east, double north, yb_region_t *best, size_t *index)
+/* The line whose region overlaps `target` most, by *overlap. False if none does. */
+static bool match(GEOSContextHandle_t geos, const yb_region_t *target, const yb_isolines_t *lines,
+                  double east, double north, yb_region_t *best, size_t *index, double *overlap)
 {
-    double most = 0;
     *best = (yb_region_t){0};
     *index = YB_NO_LINE;
+    *overlap = 0;
     for (size_t i = 0; i < lines->count; i++) {
         yb_region_t region[2] = {{0}};
         const int count = yb_region_make(geos, region, &lines->line[i], east, north);
+        const double left = region[0].area, right = region[1].area;
         for (int side = 0; side < count; side++) {
             /* No overlap is better than the ratio of the areas: that spares most intersections. */
-            const double limit =
-                fmin(region[side].area, target->area) / fmax(region[side].area, target->area);
-            const double overlap =
-                limit > most ? yb_region_overlap(geos, target, &region[side]) : 0;
-            if (overlap > most) {
+            const double area = side == 0 ? left : right;
+            const double limit = fmin(area, target->area) / fmax(area, target->area);
+            const double here =
+                limit > *overlap ? yb_region_overlap(geos, target, &region[side]) : 0;
+            if (count == 2 && area > fmin(left, right) && here < YB_SIMILARITY_LARGER_PART)
+                continue;
+            if (here > *overlap) {
                 yb_region_free(geos, best);
                 *best = region[side];
                 region[side] = (yb_region_t){0};
                 *index = i;
-                most = overlap;
+                *overlap = here;
             }
         }
         yb_region_free(geos, &region[0]);
         yb_region_free(geos, &region[1]);
     }
-    return most;
+    return best->point != NULL;
 }
 
 static double polygon_length(const yb_isoline_t *line)
@@ -171,7 +172,7 @@ static bool compare(GEOSContextHandle_t geos, yb_similarity_t *similarity,
 {
     arc_t first = {0}, second = {0};
     const bool good = arc_make(&first, original) && arc_make(&second, reproduced);
-    similarity->hausdorff = yb_region_line_distance(geos, original, reproduced);
+    similarity->hausdorff = yb_region_distance(geos, original, reproduced);
     if (good && similarity->hausdorff >= 0) {
         const double radius = sqrt(original->area / acos(-1.0));
         similarity->distance = 1 - fmin(1, similarity->hausdorff / radius);
@@ -205,13 +206,13 @@ bool yb_similarity_measure(yb_similarity_t *similarity, const yb_isoline_t *code
     if (geos == NULL)
         return false;
     bool good = true;
-    yb_region_t polygon, original = {0}, reproduced = {0};
+    double overlap = 0;
+    yb_region_t polygon = {0}, original = {0}, reproduced = {0};
     if (coded_region(geos, coded, east, north, &polygon) &&
-        match(geos, &polygon, originals, east, north, &original, &similarity->original) > 0) {
-        similarity->area = match(geos, &original, reproductions, east, north, &reproduced,
-                                 &similarity->reproduced);
-        good = similarity->area <= 0 || compare(geos, similarity, &original, &reproduced);
-    }
+        match(geos, &polygon, originals, east, north, &original, &similarity->original, &overlap) &&
+        match(geos, &original, reproductions, east, north, &reproduced, &similarity->reproduced,
+              &similarity->area))
+        good = compare(geos, similarity, &original, &reproduced);
     yb_region_free(geos, &polygon);
     yb_region_free(geos, &original);
     yb_region_free(geos, &reproduced);

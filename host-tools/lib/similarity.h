@@ -12,13 +12,16 @@
 /* Equal steps of the original on which the signs of curvature are compared. */
 #define YB_SIMILARITY_STEPS 16
 
+/* The larger part of the frame beside an open line is matched only by at least this overlap. */
+#define YB_SIMILARITY_LARGER_PART 0.25
+
 typedef struct {
     double area;       /* a: intersection over union of the two regions */
     double distance;   /* d: 1 - min(1, Hausdorff distance / radius of a disc of equal area) */
     double curvature;  /* c: share of the steps that turn the same way */
     double k;          /* (a + d + c) / 3; all four are 0 if a line is missing */
     double length;     /* of the coded polygon: its weight */
-    double hausdorff;  /* greatest distance of the two lines */
+    double hausdorff;  /* greatest distance of the two boundaries */
     size_t original;   /* index of the original line; YB_NO_LINE: none overlaps the polygon */
     size_t reproduced; /* index of the reproduced line; YB_NO_LINE: none overlaps the original */
 } yb_similarity_t;

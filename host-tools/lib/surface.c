@@ -20,6 +20,16 @@ double yb_map_cell_m(const yb_map_t *map)
     return yb_unit_64th_m(map->cell) / 64.0;
 }
 
+double yb_map_east_m(const yb_map_t *map)
+{
+    return map->east_q8 * (yb_map_cell_m(map) / 256);
+}
+
+double yb_map_north_m(const yb_map_t *map)
+{
+    return map->north_q8 * (yb_map_cell_m(map) / 256);
+}
+
 double yb_map_z_m(const yb_map_t *map, int32_t z_q8)
 {
     return map->base_m + z_q8 / 256.0 * yb_map_cell_m(map);
@@ -137,8 +147,14 @@ bool yb_mesh_from_map(yb_mesh_t *mesh, const yb_map_t *map, uint16_t longest_q8)
     return !weld.failed;
 }
 
+/* Exactly the side for the last point: open isolines must end on the frame. */
+static double lattice_place(uint32_t index, uint32_t count, double side_m)
+{
+    return index + 1 == count ? side_m : side_m * index / (count - 1);
+}
+
 bool yb_mesh_from_lattice(yb_mesh_t *mesh, const float *z_m, uint32_t columns, uint32_t rows,
-                          double cell_m)
+                          double east_m, double north_m)
 {
     const size_t squares = (size_t)(columns - 1) * (rows - 1);
     *mesh = (yb_mesh_t){0};
@@ -148,12 +164,11 @@ bool yb_mesh_from_lattice(yb_mesh_t *mesh, const float *z_m, uint32_t columns, u
         yb_mesh_free(mesh);
         return false;
     }
-    /* The same expression as in weld_corner: both meshes end on exactly the same frame. */
-    const double step_m = cell_m / 256;
     for (uint32_t j = 0; j < rows; j++) {
         for (uint32_t i = 0; i < columns; i++) {
             const uint32_t sw = j * columns + i;
-            mesh->point[sw] = (yb_point3_t){i * 256 * step_m, j * 256 * step_m, (double)z_m[sw]};
+            mesh->point[sw] = (yb_point3_t){lattice_place(i, columns, east_m),
+                                            lattice_place(j, rows, north_m), (double)z_m[sw]};
             if (i + 1 == columns || j + 1 == rows)
                 continue;
             const uint32_t corner[2][3] = {{sw, sw + 1, sw + columns + 1},

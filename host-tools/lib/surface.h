@@ -25,19 +25,22 @@ typedef struct {
     uint32_t cracks; /* corners met at one place with different heights: 0, or the engine errs */
 } yb_mesh_t;
 
-/* Metres per step of a map, and metres of a height above its base. */
+/* Metres per step of a map, the size of its frame, and a height above the datum. */
 double yb_map_cell_m(const yb_map_t *map);
+double yb_map_east_m(const yb_map_t *map);
+double yb_map_north_m(const yb_map_t *map);
 double yb_map_z_m(const yb_map_t *map, int32_t z_q8);
 
 /* A map refined until no edge is longer than longest_q8; equal corners become one. False: no
  * memory. */
 bool yb_mesh_from_map(yb_mesh_t *mesh, const yb_map_t *map, uint16_t longest_q8);
 
-/* A lattice of columns * rows heights, row 0 in the south, cell_m apart, its south-west point at
- * (0, 0); each square is cut from its south-west to its north-east corner.
+/* A lattice of columns * rows heights, row 0 in the south, at least two each way, its outermost
+ * points on the frame from (0, 0) to (east_m, north_m); each square is cut from its south-west to
+ * its north-east corner.
  */
 bool yb_mesh_from_lattice(yb_mesh_t *mesh, const float *z_m, uint32_t columns, uint32_t rows,
-                          double cell_m);
+                          double east_m, double north_m);
 
 void yb_mesh_free(yb_mesh_t *mesh);
 

@@ -26,11 +26,11 @@ const char yb_view_options_help[] =
     "                      instead of --view, --elevation and --distance\n"
     "  --look X Y Z        what the eye looks at (default: the map's middle)\n"
     "  --fov DEG           width of the picture, 4 to 126 (default 50)\n"
-    "  --sun AZ EL         direction of the light (default 315 45)\n"
+    "  --sun AZ EL         direction of the light (default 315 30)\n"
     "  --water M           water up to M metres above the datum\n"
     "  --exaggerate F      vertical scale, 0.01 to 8 (default 1)\n"
     "  --walls on|off      the sides of the block (default on)\n"
-    "  --edge PIXELS       longest edge of a triangle on the screen (default 4)\n"
+    "  --edge PIXELS       longest edge of a triangle on the screen (default 6)\n"
     "  --max-leaves N      at most N triangles (default: no bound)\n"
     "  --band ROWS         draw so many rows at a time (default: all); same pixels\n"
     "  --no-detail         the smooth surface, without fractal detail\n";

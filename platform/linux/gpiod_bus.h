@@ -21,7 +21,6 @@
 
 #include "panel.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 enum {
@@ -37,11 +36,6 @@ typedef struct {
     int dc;
     int reset; /* or YB_GPIOD_NOT_WIRED */
 } yb_gpiod_pins_t;
-
-/* Reads the wiring as people write it, "sck=11,mosi=10,cs=8,dc=25,reset=24": any order, each line
- * once, reset only if wired. Leaves `chip` alone. False, and one sentence in `error`, when it is
- * not that. */
-bool yb_gpiod_pins_parse(yb_gpiod_pins_t *pins, const char *text, char *error, size_t error_bytes);
 
 typedef struct yb_gpiod_bus yb_gpiod_bus_t;
 

@@ -19,8 +19,8 @@ static yb_usb_result_t explain(libusb_device *device, int error, char *message,
     switch (error) {
     case LIBUSB_ERROR_ACCESS:
         snprintf(message, message_bytes,
-                 "no permission to open the device at bus %u address %u; install the udev rule, or "
-                 "become root",
+                 "no permission to open the device at bus %u address %u; install 70-yamabiko.rules "
+                 "for udev, or become root",
                  bus, address);
         break;
     case LIBUSB_ERROR_BUSY:

@@ -78,14 +78,14 @@ class Run:
         self.error = None
 
 
-def _command(board, elf, code_path, counts_path):
+def _command(board, elf, code_path, counts_path, more):
     symbols = symbol_addresses(elf)
     return [
         "qemu-system-arm", "-M", board, "-kernel", str(elf), "-nodefaults", "-display", "none",
         "-serial", "stdio", "-semihosting-config", "enable=on,target=native",
         "-device", f"loader,file={code_path},addr={emulator.SLOT_ADDRESS:#x},force-raw=on",
         "-plugin", f"{PLUGIN},begin={symbols['yb_mark_begin']:#x},"
-                   f"end={symbols['yb_mark_end']:#x},out={counts_path}",
+                   f"end={symbols['yb_mark_end']:#x},out={counts_path}{more}",
     ]
 
 
@@ -106,15 +106,15 @@ def _read(run, console, counts):
     run.regions = {name: count - counts[0] for name, count in zip(names, counts)}
 
 
-def run_bench(board, code):
-    """Runs the bench of a board with the code (bytes) in the map slot."""
+def run_bench(board, code, more=""):
+    """Runs the bench of a board with the code (bytes) in the map slot; `more`: plugin options."""
     run = Run()
     with tempfile.TemporaryDirectory(prefix="yamabiko-bench-") as folder:
         code_path = os.path.join(folder, "map.yb")
         counts_path = os.path.join(folder, "counts")
         with open(code_path, "wb") as file:
             file.write(code)
-        command = _command(board, bench_elf(board), code_path, counts_path)
+        command = _command(board, bench_elf(board), code_path, counts_path, more)
         try:
             result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True,
                                     timeout=PATIENCE_S, check=False)

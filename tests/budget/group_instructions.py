@@ -3,6 +3,9 @@
 import boards
 import paper_code
 
+STANDARD_VIEWS = 8
+ORBITS = 4  # the first of them
+
 
 def many_summits():
     """The code with the most vertices: 251 spot heights, scattered by a fixed rule."""
@@ -30,27 +33,37 @@ def frame_regions(run):
     return frames
 
 
-def measure_board(board):
+def measure_loads(board, loads):
     target = boards.TARGETS[board]
-    runs = [boards.run_map(board, name, code) for name, code in boards.maps().items()]
-    loads = [run.regions["load"] for run in runs]
     yield "load, mean of the maps", target, mean(loads), "instructions"
     yield "load, worst of the maps", target, max(loads), "instructions"
     crowded = boards.run_map(board, "many-summits", many_summits())
     yield "load, 251 summits", target, crowded.regions["load"], "instructions"
+
+
+def measure_board(board):
+    target = boards.TARGETS[board]
+    runs = [boards.run_map(board, name, code) for name, code in boards.maps().items()]
+    if board in boards.DEVICES:
+        yield from measure_loads(board, [run.regions["load"] for run in runs])
     frames = [frame_regions(run) for run in runs]
     for setting in frames[0]:
+        if board not in boards.DEVICES and setting.startswith("128x64"):
+            continue  # the same to the instruction as on the device with this core
         for view in frames[0][setting]:
             yield (f"frame {setting} {view}", target,
                    mean(frame[setting][view] for frame in frames), "instructions")
-        yield (f"frame {setting}, mean of the views", target,
-               mean(mean(frame[setting].values()) for frame in frames), "instructions")
+        for what, chosen in (("views", STANDARD_VIEWS), ("orbits", ORBITS)):
+            if len(frames[0][setting]) >= chosen:
+                yield (f"frame {setting}, mean of the {what}", target,
+                       mean(mean(list(frame[setting].values())[:chosen]) for frame in frames),
+                       "instructions")
 
 
 def ratios(figures):
     """What the figures say of each other: bands against a full height, and M0 against M3."""
     def frame(setting, target):
-        return figures.get((f"frame {setting}, mean of the views", target))
+        return figures.get((f"frame {setting}, mean of the orbits", target))
 
     for setting, full in (("128x64-rows16", "128x64-rows64"), ("128x64-rows8", "128x64-rows64"),
                           ("128x64-rows1", "128x64-rows64"),

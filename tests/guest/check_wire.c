@@ -2,12 +2,13 @@
  *
  * Turns the trace of a panel's GPIO lines (numbers from BASE) back into bytes with their D/C, hands
  * them to the model of the SSD0323, and compares its picture with the file EXPECTED: two pixels a
- * byte, high nibble left. PICTURE gets it as PGM, to look at. Anything that a display could take
- * amiss is an error: data that move while the clock is high, a byte cut short, bytes while the
- * display is not selected. */
+ * byte, high nibble left, or a PNG whose greys are 17 times the levels. PICTURE gets it as PGM, to
+ * look at. Anything that a display could take amiss is an error: data that move while the clock is
+ * high, a byte cut short, bytes while the display is not selected. */
 #include "gpio_trace.h"
 #include "ssd0323_model.h"
 
+#include <png.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -105,22 +106,62 @@ static void write_pgm(const char *path, const uint8_t *picture)
     fclose(file);
 }
 
-static bool same_as_file(const char *path, const uint8_t *picture)
+static bool read_raw(const char *path, uint8_t expected[YB_SSD0323_PICTURE_BYTES])
 {
-    uint8_t expected[YB_SSD0323_PICTURE_BYTES + 1];
-    int different = 0;
+    uint8_t one_more;
     FILE *file = fopen(path, "rb");
 
     if (file == NULL) {
         perror(path);
         return false;
     }
-    const size_t got = fread(expected, 1, sizeof expected, file);
+    const size_t got = fread(expected, 1, YB_SSD0323_PICTURE_BYTES, file);
+    const bool is_frame = got == YB_SSD0323_PICTURE_BYTES && fread(&one_more, 1, 1, file) == 0;
     fclose(file);
-    if (got != YB_SSD0323_PICTURE_BYTES) {
-        fprintf(stderr, "%s: a frame has %d bytes, not %zu\n", path, YB_SSD0323_PICTURE_BYTES, got);
+    if (!is_frame)
+        fprintf(stderr, "%s: a frame has %d bytes, and this has not\n", path,
+                YB_SSD0323_PICTURE_BYTES);
+    return is_frame;
+}
+
+static bool read_png(const char *path, uint8_t expected[YB_SSD0323_PICTURE_BYTES])
+{
+    static uint8_t grey[YB_SSD0323_WIDTH * YB_SSD0323_HEIGHT];
+    png_image image = {.version = PNG_IMAGE_VERSION};
+
+    if (!png_image_begin_read_from_file(&image, path)) {
+        fprintf(stderr, "%s: %s\n", path, image.message);
         return false;
     }
+    image.format = PNG_FORMAT_GRAY;
+    if (image.width != YB_SSD0323_WIDTH || image.height != YB_SSD0323_HEIGHT) {
+        fprintf(stderr, "%s: %u x %u is not the panel's size\n", path, image.width, image.height);
+        png_image_free(&image);
+        return false;
+    }
+    if (!png_image_finish_read(&image, NULL, grey, 0, NULL)) {
+        fprintf(stderr, "%s: %s\n", path, image.message);
+        return false;
+    }
+    for (size_t i = 0; i < YB_SSD0323_PICTURE_BYTES; i++) {
+        if (grey[2 * i] % 17 != 0 || grey[2 * i + 1] % 17 != 0) {
+            fprintf(stderr, "%s: has greys that the panel has not\n", path);
+            return false;
+        }
+        expected[i] = (uint8_t)(grey[2 * i] / 17 << 4 | grey[2 * i + 1] / 17);
+    }
+    return true;
+}
+
+static bool same_as_file(const char *path, const uint8_t *picture)
+{
+    uint8_t expected[YB_SSD0323_PICTURE_BYTES];
+    const char *ending = strrchr(path, '.');
+    const bool is_png = ending != NULL && strcmp(ending, ".png") == 0;
+    int different = 0;
+
+    if (!(is_png ? read_png(path, expected) : read_raw(path, expected)))
+        return false;
     for (int i = 0; i < YB_SSD0323_PICTURE_BYTES; i++)
         different += picture[i] != expected[i];
     if (different != 0)

@@ -1,10 +1,11 @@
-/* draw_frame CHIP PINS FRAME
+/* draw_frame CHIP SCK MOSI CS DC RESET FRAME
  *
- * Draws one frame of noise on an SSD0323 on GPIO lines (PINS as gpiod_bus.h has them), in bands and
+ * Draws one frame of noise on an SSD0323 on these GPIO lines, in bands and
  * then one window again, and leaves the frame in the file FRAME. */
 #include "gpiod_bus.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 enum {
     WIDTH = 128,
@@ -47,24 +48,32 @@ static bool draw(const yb_panel_t *panel, const yb_panel_bus_t *bus, uint8_t *fr
     return panel->write(bus, &window);
 }
 
+static int line_number(const char *text)
+{
+    return (int)strtol(text, NULL, 10);
+}
+
 int main(int argc, char **argv)
 {
     static uint8_t frame[ROW_BYTES * HEIGHT];
     char error[YB_GPIOD_ERROR_BYTES];
     uint32_t noise = 20;
 
-    if (argc != 4) {
-        fputs("draw_frame CHIP PINS FRAME\n", stderr);
+    if (argc != 8) {
+        fputs("draw_frame CHIP SCK MOSI CS DC RESET FRAME\n", stderr);
         return 2;
     }
     for (size_t i = 0; i < sizeof frame; i++) {
         noise = noise * 1664525U + 1013904223U;
         frame[i] = (uint8_t)(noise >> 24);
     }
-    yb_gpiod_pins_t pins = {.chip = argv[1]};
-    yb_gpiod_bus_t *bus = NULL;
-    if (yb_gpiod_pins_parse(&pins, argv[2], error, sizeof error))
-        bus = yb_gpiod_bus_open(&pins, error, sizeof error);
+    const yb_gpiod_pins_t pins = {.chip = argv[1],
+                                  .sck = line_number(argv[2]),
+                                  .mosi = line_number(argv[3]),
+                                  .cs = line_number(argv[4]),
+                                  .dc = line_number(argv[5]),
+                                  .reset = line_number(argv[6])};
+    yb_gpiod_bus_t *bus = yb_gpiod_bus_open(&pins, error, sizeof error);
     if (bus == NULL) {
         fprintf(stderr, "draw_frame: %s\n", error);
         return 1;
@@ -73,5 +82,5 @@ int main(int argc, char **argv)
     if (!drawn)
         fprintf(stderr, "draw_frame: %s\n", yb_gpiod_bus_error(bus));
     yb_gpiod_bus_close(bus);
-    return drawn ? write_frame(argv[3], frame, sizeof frame) : 1;
+    return drawn ? write_frame(argv[7], frame, sizeof frame) : 1;
 }

@@ -6,7 +6,8 @@
  * port PORT until the program ends.
  *
  * PRODUCT is its product number, in hex. IDENTITY is what it answers to "who are you": bytes in
- * hex, or "refuse" to stall the request, or "silent" never to answer. */
+ * hex, or "refuse" to stall the request, or "silent" never to answer, or "vanish" to be unplugged
+ * at that moment. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "usb_link.h"
@@ -54,6 +55,7 @@ typedef struct {
     size_t identity_bytes;
     bool refuses;
     bool is_silent;
+    bool vanishes;
 } player_t;
 
 static const uint8_t configuration[] = {
@@ -95,6 +97,8 @@ static bool control(const player_t *player, const header_t *request, size_t leng
     size_t count = 0;
 
     if (setup[0] == YB_USB_REQUEST_TYPE && setup[1] == YB_USB_REQUEST_IDENTIFY) {
+        if (player->vanishes)
+            return false;
         if (player->is_silent)
             return true;
         if (player->refuses)
@@ -144,7 +148,8 @@ static bool read_identity(player_t *player, const char *text)
 {
     player->refuses = strcmp(text, "refuse") == 0;
     player->is_silent = strcmp(text, "silent") == 0;
-    if (player->refuses || player->is_silent)
+    player->vanishes = strcmp(text, "vanish") == 0;
+    if (player->refuses || player->is_silent || player->vanishes)
         return true;
     for (; text[0] != '\0' && player->identity_bytes < sizeof player->identity; text += 2) {
         const char digits[] = {text[0], text[1], '\0'};

@@ -14,10 +14,12 @@ import re
 import socket
 import subprocess
 import tempfile
+import time
 
 SLOT_ADDRESS = 0x3F000
 PATIENCE_S = 30
 STEP_BAM = 256
+STRIDE_STEPS = 16
 TURN_BAM = 65536
 
 FRAME = re.compile(r"(paused|frame) azimuth=(\d{5}) hash=([0-9a-f]{8})")
@@ -43,6 +45,7 @@ class Monitor:
     """QEMU's machine protocol, over a connected socket."""
 
     def __init__(self, connection):
+        self.connection = connection
         self.lines = connection.makefile("rw", encoding="utf-8", newline="\n")
         self._receive()  # the greeting
         self.execute("qmp_capabilities")
@@ -52,6 +55,10 @@ class Monitor:
         if not line:
             raise BoardError("QEMU has gone")
         return json.loads(line)
+
+    def close(self):
+        self.lines.close()
+        self.connection.close()
 
     def execute(self, command, **arguments):
         self.lines.write(json.dumps({"execute": command, "arguments": arguments}) + "\n")
@@ -90,6 +97,7 @@ class Board:
         console.settimeout(PATIENCE_S)
         monitor.settimeout(PATIENCE_S)
         self.console = console
+        self.monitor = None
         self.console_lines = console.makefile("r", encoding="ascii", newline="\r\n")
         try:
             self.monitor = Monitor(monitor)
@@ -118,6 +126,9 @@ class Board:
     def close(self):
         self.process.kill()
         self.process.wait()
+        if self.monitor:
+            self.monitor.close()
+        self.console_lines.close()
         self.console.close()
         self.errors.close()
         self.folder.cleanup()
@@ -135,28 +146,34 @@ class Board:
 
     def send(self, command):
         self.console.sendall(command.encode("ascii"))
+        # QEMU looks whether a UART takes characters only when its main loop comes by, which it did
+        # before the guest started its receiver, and may not again: any request wakes it.
+        self.monitor.execute("query-status")
 
     def pause(self):
         """Holds the turntable still; frames drawn until then may still be told before."""
         self.send("p")
-        while True:
+        deadline = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline:
             frame = Frame(self.line())
             if frame.paused:
                 return frame
+        raise BoardError("the board does not pause")
 
-    def next(self):
-        """While paused: the next frame."""
-        self.send("n")
+    def next(self, steps=1):
+        """While paused: the next frame, or the one 16 steps on."""
+        self.send({1: "n", STRIDE_STEPS: "N"}[steps])
         return Frame(self.line())
 
     def pause_at(self, azimuth_bam):
-        """Steps until the frame of that azimuth is on the display."""
+        """Turns until the frame of that azimuth is on the display."""
         frame = self.pause()
-        for _ in range(TURN_BAM // STEP_BAM):
-            if frame.azimuth_bam == azimuth_bam:
+        for _ in range(2 * STRIDE_STEPS + 2):
+            left = (azimuth_bam - frame.azimuth_bam) % TURN_BAM // STEP_BAM
+            if left == 0:
                 return frame
-            frame = self.next()
-        raise BoardError(f"a whole turn did not pass azimuth {azimuth_bam}")
+            frame = self.next(STRIDE_STEPS if left >= STRIDE_STEPS else 1)
+        raise BoardError(f"turning did not reach azimuth {azimuth_bam}")
 
     def picture(self, width=128, height=64, zoom=4):
         """The display's pixels, levels 0 to 15, a bytes object per row."""

@@ -47,3 +47,9 @@ def frame_hash(pixels):
     for byte in pixels:
         value = (value ^ byte) * 16777619 & 0xFFFFFFFF
     return f"{value:08x}"
+
+
+def wrong_pixels(shown, expected):
+    """Where two pictures differ, as a sentence; empty if they do not."""
+    wrong = [(x, y) for y in range(64) for x in range(128) if shown[y][x] != expected[y][x]]
+    return f"{len(wrong)} pixels differ, the first at {wrong[0]}" if wrong else ""

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "clip.h"
 #include "raster.h"
 #include "refine.h"
 #include "relief.h"
@@ -20,7 +21,9 @@ typedef struct {
  */
 bool plain_behind(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
-    int64_t reach = relief_reach(frame->map, &corner[0]->at, &corner[1]->at, &corner[2]->at);
+    relief_bound_t bound;
+    relief_bound(frame->map, &corner[0]->at, &corner[1]->at, &corner[2]->at, &bound);
+    int64_t reach = relief_reach(frame->map, &bound, 0);
     int64_t lift = frame->lift_back_q9 < 0 ? -frame->lift_back_q9 : frame->lift_back_q9;
     for (int i = 0; i < 3; i++) {
         int64_t stray = 2 * reach + 256;
@@ -82,7 +85,12 @@ static void draw_leaf(void *context, const yb_point_t *const corner[3])
 {
     drawing_t *drawing = context;
     uint16_t pixel = shade_ground(drawing->frame, &corner[0]->at, &corner[1]->at, &corner[2]->at);
-    (void)clip_draw(drawing->frame, &drawing->raster, corner, pixel);
+    raster_point_t place[3];
+    raster_setup_t setup;
+    if (clip_needs(drawing->frame, corner, place))
+        (void)clip_draw(drawing->frame, &drawing->raster, corner, pixel);
+    else if (raster_setup(&drawing->raster, place, &setup))
+        raster_fill(&drawing->raster, &setup, pixel);
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)

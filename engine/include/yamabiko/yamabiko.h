@@ -223,7 +223,7 @@ static inline uint32_t yb_unit_64th_m(uint16_t coded)
 /* --- The view --------------------------------------------------------------------------------- */
 
 /* Whole degrees, 0 to 359, as a binary angle. */
-#define YB_DEGREES(d) ((uint16_t)(((uint32_t)(d) * 65536u + 180u) / 360u))
+#define YB_DEGREES(d) ((uint16_t)(((uint32_t)(d)*65536u + 180u) / 360u))
 
 /* A water level below every map. */
 #define YB_NO_WATER INT32_MIN
@@ -235,17 +235,17 @@ static inline uint32_t yb_unit_64th_m(uint16_t coded)
 typedef struct {
     int32_t eye_q8[3];
     int32_t look_q8[3];
-    uint16_t azimuth_bam;    /* of the picture's upward direction when looking straight down */
-    uint16_t zoom_q12;       /* focal length in frame widths: 4392 is 50 degrees across */
-    uint16_t exaggerate_q8;  /* vertical scale: 256 is true */
-    uint16_t edge_q4;        /* split edges longer than this on the screen, in 1/16 pixel */
-    int16_t sun_q14[3];      /* unit vector towards the sun */
-    bool walls;              /* draw the block's sides, down to its base */
-    int32_t water_q8;        /* water level, or YB_NO_WATER */
-    uint32_t max_leaves;     /* at most so many triangles refined in a frame; 0: no bound */
+    uint16_t azimuth_bam;   /* of the picture's upward direction when looking straight down */
+    uint16_t zoom_q12;      /* focal length in frame widths: 4392 is 50 degrees across */
+    uint16_t exaggerate_q8; /* vertical scale: 256 is true */
+    uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel */
+    int16_t sun_q14[3];     /* unit vector towards the sun */
+    bool walls;             /* draw the block's sides, down to its base */
+    int32_t water_q8;       /* water level, or YB_NO_WATER */
+    uint32_t max_leaves;    /* at most so many triangles refined in a frame; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to 6 pixels, sun in the north-west 45
+/* The standard: 50 degrees across, true scale, edges up to 7 pixels, sun in the north-west 30
  * degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
@@ -267,8 +267,8 @@ int16_t yb_cos_q14(uint16_t angle_bam);
 /* --- The frame -------------------------------------------------------------------------------- */
 
 typedef enum {
-    YB_GREY4,  /* 16 greys, two pixels a byte, the left one in the high nibble */
-    YB_RGB565  /* 16 bits, high byte first, as most panels take them */
+    YB_GREY4, /* 16 greys, two pixels a byte, the left one in the high nibble */
+    YB_RGB565 /* 16 bits, high byte first, as most panels take them */
 } yb_format_t;
 
 typedef struct {
@@ -312,7 +312,7 @@ typedef struct {
     yb_point_t middle[3];
     uint8_t pattern; /* which edges are split */
     uint8_t child;   /* next child to visit */
-    bool inside;     /* wholly in the picture: no bounds need a test any more */
+    uint8_t planes;  /* sides of the view that it may still stick out of */
 } yb_level_t;
 
 /* Rows are binned in units that fit a byte. */
@@ -330,15 +330,15 @@ typedef struct {
     const yb_map_t *map;
     yb_view_t view;
     yb_screen_t screen;
-    int32_t near_q8;      /* nothing nearer is drawn */
-    int32_t near_scaled;  /* near_q8 as 15 bits … */
-    int32_t near_shift;   /* … times 2^near_shift */
-    int32_t lift_up_q9;   /* what one unit of height does to a point's up_q8 … */
-    int32_t lift_back_q9; /* … and takes off its depth_q8: exaggeration included */
-    int32_t base_q8;      /* where the walls end */
-    int32_t focal_q4;     /* pixels */
-    int32_t split_q4;     /* an edge is split if length * split_q4 > depth * 16 */
-    int32_t tone_q16;     /* hues per height unit */
+    int32_t near_q8;                     /* nothing nearer is drawn */
+    int32_t near_scaled;                 /* near_q8 as 15 bits … */
+    int32_t near_shift;                  /* … times 2^near_shift */
+    int32_t lift_up_q9;                  /* what one unit of height does to a point's up_q8 … */
+    int32_t lift_back_q9;                /* … and takes off its depth_q8: exaggeration included */
+    int32_t base_q8;                     /* where the walls end */
+    int32_t focal_q4;                    /* pixels */
+    int32_t split_q4;                    /* an edge is split if length * split_q4 > depth * 16 */
+    int32_t tone_q16;                    /* hues per height unit */
     uint8_t first_row[YB_MAX_TRIANGLES]; /* of a base triangle, in units of 1 << YB_ROW_SHIFT */
     uint8_t last_row[YB_MAX_TRIANGLES];  /* before first_row: not on the screen */
     struct {

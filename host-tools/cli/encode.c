@@ -1,0 +1,424 @@
+#include "cli.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cpl_progress.h>
+#include <jansson.h>
+
+#include "encode.h"
+#include "output.h"
+#include "paper_code.h"
+
+enum {
+    OPTION_BYTES = 256,
+    OPTION_PROFILE,
+    OPTION_WINDOW,
+    OPTION_CENTER,
+    OPTION_KM,
+    OPTION_CELL,
+    OPTION_LEVELS,
+    OPTION_INTERVAL,
+    OPTION_FIELD,
+    OPTION_SEED,
+    OPTION_EFFORT,
+    OPTION_FORCE,
+    OPTION_JSON,
+    OPTION_HEX,
+    OPTION_HELP
+};
+
+/* Cells that a raster is read with: the lattice of a code has no more points. */
+enum {
+    GRID_SIDE = 256,
+    DEFAULT_KM = 20
+};
+
+static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                        {"bytes", required_argument, NULL, OPTION_BYTES},
+                                        {"profile", required_argument, NULL, OPTION_PROFILE},
+                                        {"window", required_argument, NULL, OPTION_WINDOW},
+                                        {"center", required_argument, NULL, OPTION_CENTER},
+                                        {"km", required_argument, NULL, OPTION_KM},
+                                        {"cell", required_argument, NULL, OPTION_CELL},
+                                        {"levels", required_argument, NULL, OPTION_LEVELS},
+                                        {"interval", required_argument, NULL, OPTION_INTERVAL},
+                                        {"field", required_argument, NULL, OPTION_FIELD},
+                                        {"seed", required_argument, NULL, OPTION_SEED},
+                                        {"effort", required_argument, NULL, OPTION_EFFORT},
+                                        {"force", no_argument, NULL, OPTION_FORCE},
+                                        {"json", no_argument, NULL, OPTION_JSON},
+                                        {"hex", no_argument, NULL, OPTION_HEX},
+                                        {"quiet", no_argument, NULL, 'q'},
+                                        {"help", no_argument, NULL, OPTION_HELP},
+                                        {0}};
+
+typedef struct {
+    const char *input, *output, *field;
+    yb_window_t window;
+    yb_encode_task_t task;
+    double km;
+    bool centered, boxed, force, json, hex, quiet;
+} request_t;
+
+static int help(void)
+{
+    fputs("Usage: yamabiko encode INPUT -o MAP.yb [OPTION ...]\n"
+          "\n"
+          "Codes a relief in about a hundred bytes. INPUT is a raster of heights (a DEM in any\n"
+          "format of GDAL), or a vector file of contour lines with their heights.\n"
+          "\n"
+          "The encoder chooses contour lines, their feature points, summits and heights such that\n"
+          "the surface which the engine makes of the code lies as near to the relief as it can.\n"
+          "The same input gives the same bytes on every machine.\n"
+          "\n"
+          "  -o, --output FILE     the code; - is the standard output\n"
+          "  --bytes N             most bytes of the whole file, 23 to 1299 (default 100)\n"
+          "  --profile NAME        how it is coded: paper (the only one of this version)\n",
+          stdout);
+    fputs("\n"
+          "Which part of the input:\n"
+          "  --window XMIN YMIN XMAX YMAX\n"
+          "                        a box in the input's own coordinates\n"
+          "  --center LON LAT      a square round a place, in degrees (WGS 84) ...\n"
+          "  --km S                ... of so many kilometres a side (default 20)\n"
+          "  --cell METRES         size of the cells of a raster that does not tell it\n"
+          "                        (default 30)\n"
+          "\n"
+          "What the lines show:\n"
+          "  --levels N            lines at N evenly spaced heights only, 1 to 64\n"
+          "  --interval M          lines at multiples of M metres only\n"
+          "                        (default: a raster's lines lie wherever they tell most,\n"
+          "                        those of a vector file at the heights they have there)\n"
+          "  --field NAME          the attribute of a vector file that is the height (default:\n"
+          "                        one that sounds like it, or else the z coordinate)\n"
+          "  --seed N              of the fractal detail, 0 to 255 (default 1)\n",
+          stdout);
+    fputs("\n"
+          "  --effort 1..9         each step doubles the trials (default 5: some seconds)\n"
+          "  --force               overwrite what exists\n"
+          "  --json                tell the results as JSON on the standard output\n"
+          "  --hex                 tell the bytes, too\n"
+          "  -q, --quiet           tell nothing\n"
+          "  --help                this text\n"
+          "\n"
+          "Holes of a raster are filled from around them if they are no more than a quarter of\n"
+          "it. Rasters in degrees are laid out in metres round the middle of the window.\n"
+          "\n"
+          "RMSE is the root of the mean squared height difference of the smooth surface, without\n"
+          "fractal detail; NRMSE is the same in standard deviations of the relief.\n"
+          "\n"
+          "Examples:\n"
+          "  yamabiko encode fuji.tif -o fuji.yb\n"
+          "  yamabiko encode N46E009.hgt --center 9.8 46.82 --km 15 -o davos.yb --bytes 200\n"
+          "  yamabiko encode contours.gpkg --field hoehe -o hill.yb\n",
+          stdout);
+    return CLI_OK;
+}
+
+/* `count` numbers: the option's value and the words after it. */
+static bool take_numbers(int argc, char **argv, double *value, int count)
+{
+    if (optind - 1 + count > argc)
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!cli_number(argv[optind - 1 + i], &value[i]))
+            return false;
+    optind += count - 1;
+    return true;
+}
+
+static int take_place(request_t *request, int answer, int argc, char **argv)
+{
+    double place[2] = {0};
+    switch (answer) {
+    case OPTION_WINDOW:
+        request->boxed = true;
+        if (!take_numbers(argc, argv, request->window.box, 4))
+            return cli_usage("--window needs four numbers: XMIN YMIN XMAX YMAX");
+        if (request->window.box[0] >= request->window.box[2] ||
+            request->window.box[1] >= request->window.box[3])
+            return cli_usage("--window is empty: XMIN must be less than XMAX, YMIN less than YMAX");
+        return CLI_OK;
+    case OPTION_CENTER:
+        request->centered = true;
+        if (!take_numbers(argc, argv, place, 2) || fabs(place[0]) > 180 || fabs(place[1]) > 90)
+            return cli_usage("--center needs a longitude (-180 to 180) and a latitude (-90 to 90)");
+        request->window.lon_deg = place[0];
+        request->window.lat_deg = place[1];
+        return CLI_OK;
+    case OPTION_KM:
+        if (!cli_number(optarg, &request->km) || request->km <= 0 || request->km > 20000)
+            return cli_usage("--km needs a number above 0");
+        return CLI_OK;
+    default:
+        if (!cli_number(optarg, &request->window.cell_m) || request->window.cell_m <= 0)
+            return cli_usage("--cell needs a number of metres above 0");
+        return CLI_OK;
+    }
+}
+
+static int take_integer(const char *name, long low, long high, long *value)
+{
+    if (!cli_integer(optarg, low, high, value))
+        return cli_usage("%s needs a whole number from %ld to %ld", name, low, high);
+    return CLI_OK;
+}
+
+static int take_coding(request_t *request, int answer)
+{
+    long value = 0;
+    int status = CLI_OK;
+    switch (answer) {
+    case OPTION_BYTES:
+        if (cli_integer(optarg, 0, YB_ENCODE_LEAST_BYTES - 1, &value))
+            return cli_usage("--bytes %ld is too little for a map: the least is %d", value,
+                             YB_ENCODE_LEAST_BYTES);
+        status = take_integer("--bytes", YB_ENCODE_LEAST_BYTES, YB_MAX_CODE_BYTES, &value);
+        request->task.most_bytes = (size_t)value;
+        return status;
+    case OPTION_PROFILE:
+        if (strcmp(optarg, "compact") == 0)
+            return cli_usage("the profile compact is not in this version; use paper");
+        if (strcmp(optarg, "paper") != 0)
+            return cli_usage("there is no profile '%s'; use paper", optarg);
+        return CLI_OK;
+    case OPTION_LEVELS:
+        status = take_integer("--levels", 1, YB_ENCODE_MOST_LEVELS, &value);
+        request->task.levels = (int)value;
+        return status;
+    case OPTION_INTERVAL:
+        if (!cli_number(optarg, &request->task.interval_m) || request->task.interval_m <= 0)
+            return cli_usage("--interval needs a number of metres above 0");
+        return CLI_OK;
+    case OPTION_SEED:
+        status = take_integer("--seed", 0, UINT8_MAX, &value);
+        request->task.seed = (uint8_t)value;
+        return status;
+    default:
+        status = take_integer("--effort", 1, YB_ENCODE_MOST_EFFORT, &value);
+        request->task.effort = (int)value;
+        return status;
+    }
+}
+
+static int take_option(request_t *request, int answer, int argc, char **argv)
+{
+    switch (answer) {
+    case 'o':
+        request->output = optarg;
+        return CLI_OK;
+    case 'q':
+        request->quiet = true;
+        return CLI_OK;
+    case OPTION_FORCE:
+        request->force = true;
+        return CLI_OK;
+    case OPTION_JSON:
+        request->json = true;
+        return CLI_OK;
+    case OPTION_HEX:
+        request->hex = true;
+        return CLI_OK;
+    case OPTION_FIELD:
+        request->field = optarg;
+        return CLI_OK;
+    case OPTION_WINDOW:
+    case OPTION_CENTER:
+    case OPTION_KM:
+    case OPTION_CELL:
+        return take_place(request, answer, argc, argv);
+    case OPTION_BYTES:
+    case OPTION_PROFILE:
+    case OPTION_LEVELS:
+    case OPTION_INTERVAL:
+    case OPTION_SEED:
+    case OPTION_EFFORT:
+        return take_coding(request, answer);
+    default:
+        return cli_bad_option(answer, argc, argv);
+    }
+}
+
+static void show_progress(void *context, double share)
+{
+    (void)context;
+    GDALTermProgress(share, NULL, NULL);
+}
+
+static json_t *json_levels(const yb_code_file_t *code)
+{
+    json_t *levels = json_array();
+    for (int i = 0; i < code->load.contour_count; i++) {
+        const yb_contour_t *contour = &code->load.contour[i];
+        if (contour->count == 1)
+            continue;
+        double z_q8 = code->map.vertex[contour->first].z_q8;
+        double height_m = code->map.base_m + z_q8 * yb_paper_metres(code->map.cell) / 256;
+        json_array_append_new(levels, json_real(round(height_m * 10) / 10));
+    }
+    return levels;
+}
+
+static int point_count(const yb_code_file_t *code)
+{
+    int points = 0;
+    for (int i = 0; i < code->load.contour_count; i++)
+        points += code->load.contour[i].count;
+    return points;
+}
+
+static void hex_of(const yb_code_file_t *code, char *text)
+{
+    for (size_t i = 0; i < code->size; i++)
+        snprintf(text + 2 * i, 3, "%02x", code->bytes[i]);
+}
+
+static void tell_json(const request_t *request, const yb_encode_result_t *result)
+{
+    const yb_code_file_t *code = result->code;
+    int points = point_count(code);
+    json_t *root = json_object();
+    json_object_set_new(root, "file", json_string(request->output));
+    json_object_set_new(root, "profile", json_string("paper"));
+    json_object_set_new(root, "bytes", json_integer((json_int_t)code->size));
+    json_object_set_new(root, "n", json_integer(points));
+    json_object_set_new(root, "m", json_integer(code->load.contour_count));
+    json_object_set_new(root, "f_bits",
+                        json_integer(12 * points + 20 * code->load.contour_count + 8));
+    json_object_set_new(root, "vertices", json_integer(code->map.vertex_count));
+    json_object_set_new(root, "line_heights_m", json_levels(code));
+    json_object_set_new(root, "rmse_m", json_real(result->rmse_m));
+    json_object_set_new(root, "nrmse", json_real(result->rmse_m / result->std_m));
+    json_object_set_new(root, "dimension", json_real(result->dimension));
+    json_object_set_new(root, "trials", json_integer(result->trials));
+    if (request->hex) {
+        char text[2 * YB_MAX_CODE_BYTES + 1] = "";
+        hex_of(code, text);
+        json_object_set_new(root, "hex", json_string(text));
+    }
+    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    putchar('\n');
+    json_decref(root);
+}
+
+/* In words; not on the standard output if the code goes there. */
+static void tell_text(const request_t *request, const yb_encode_result_t *result)
+{
+    FILE *to = strcmp(request->output, "-") == 0 ? stderr : stdout;
+    const yb_code_file_t *code = result->code;
+    int points = point_count(code);
+    int spots = 0;
+    for (int i = 0; i < code->load.contour_count; i++)
+        spots += code->load.contour[i].count == 1;
+    fprintf(to,
+            "%s: %zu bytes, %d contours (%d of them spot heights) with %d points, F = %d bits\n",
+            request->output, code->size, code->load.contour_count, spots, points,
+            12 * points + 20 * code->load.contour_count + 8);
+    fprintf(to, "RMSE %.1f m, NRMSE %.3f (without detail), dimension %.2f\n", result->rmse_m,
+            result->rmse_m / result->std_m, result->dimension);
+    if (request->hex) {
+        char text[2 * YB_MAX_CODE_BYTES + 1] = "";
+        hex_of(code, text);
+        fprintf(to, "%s\n", text);
+    }
+}
+
+static bool encode_raster(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
+{
+    yb_grid_t *grid = yb_grid_read(request->input, &request->window, GRID_SIDE, error);
+    if (grid == NULL)
+        return false;
+    if (grid->holes > 0 && !request->quiet)
+        fprintf(stderr, "%s: %.2g %% of the heights were missing and are filled from around\n",
+                request->input, 100 * grid->holes);
+    if (!grid->placed && request->window.cell_m <= 0 && !request->quiet)
+        fprintf(stderr, "%s does not tell the size of its cells: %g m are assumed (--cell)\n",
+                request->input, YB_GRID_DEFAULT_CELL_M);
+    bool good = yb_encode_grid(grid, &request->task, result, error);
+    yb_grid_free(grid);
+    return good;
+}
+
+static bool encode_vector(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
+{
+    yb_lines_t *lines =
+        yb_lines_from_vector(request->input, request->field, &request->window, error);
+    if (lines == NULL)
+        return false;
+    if (lines->dropped > 0 && !request->quiet)
+        fprintf(stderr, "%s: %d lines end inside the window and are left out\n", request->input,
+                lines->dropped);
+    bool good = yb_encode_lines(lines, &request->task, result, error);
+    yb_lines_free(lines);
+    return good;
+}
+
+static int run(const request_t *request)
+{
+    yb_error_t error;
+    yb_encode_result_t result;
+    if (!yb_output_allowed(request->output, request->force, &error))
+        return cli_fail("%s", error.text);
+    bool vector = request->field != NULL || yb_lines_is_vector(request->input);
+    bool good =
+        vector ? encode_vector(request, &result, &error) : encode_raster(request, &result, &error);
+    if (good && request->task.progress != NULL)
+        request->task.progress(NULL, 1);
+    if (!good)
+        return cli_fail("%s", error.text);
+    good = yb_output_write(request->output, request->force, result.code->bytes, result.code->size,
+                           &error);
+    if (good && request->json)
+        tell_json(request, &result);
+    else if (good && !request->quiet)
+        tell_text(request, &result);
+    yb_code_file_free(result.code);
+    return good ? CLI_OK : cli_fail("%s", error.text);
+}
+
+static int check_request(request_t *request)
+{
+    if (request->output == NULL)
+        return cli_usage("name the code to write: -o MAP.yb");
+    if (request->boxed && request->centered)
+        return cli_usage("--window and --center exclude each other");
+    if (request->task.levels > 0 && request->task.interval_m > 0)
+        return cli_usage("--levels and --interval exclude each other");
+    if (request->km > 0 && !request->centered)
+        return cli_usage("--km needs --center");
+    if (request->json && strcmp(request->output, "-") == 0)
+        return cli_usage("--json and -o - both want the standard output");
+    request->window.side_m = 1000 * (request->km > 0 ? request->km : DEFAULT_KM);
+    if (request->boxed)
+        request->window.kind = YB_WINDOW_BOX;
+    else if (request->centered)
+        request->window.kind = YB_WINDOW_CENTER;
+    if (!request->quiet && isatty(STDERR_FILENO) && isatty(STDOUT_FILENO))
+        request->task.progress = show_progress;
+    return CLI_OK;
+}
+
+int cli_encode(int argc, char **argv)
+{
+    request_t request = {.task = {.most_bytes = YB_ENCODE_DEFAULT_BYTES,
+                                  .seed = 1,
+                                  .effort = YB_ENCODE_DEFAULT_EFFORT}};
+    int answer = 0;
+    while ((answer = getopt_long(argc, argv, ":o:q", options, NULL)) != -1) {
+        if (answer == OPTION_HELP)
+            return help();
+        int status = take_option(&request, answer, argc, argv);
+        if (status != CLI_OK)
+            return status;
+    }
+    if (argc - optind != 1)
+        return cli_usage(argc == optind ? "name the relief to code" : "more than one input");
+    request.input = argv[optind];
+    int status = check_request(&request);
+    return status != CLI_OK ? status : run(&request);
+}

@@ -1,0 +1,340 @@
+#include "cli.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "code_file.h"
+#include "paper_code.h"
+
+enum {
+    OPTION_JSON = 256,
+    OPTION_HELP,
+    HEADER_BITS = 14 * 8
+};
+
+static const struct option options[] = {
+    {"json", no_argument, NULL, OPTION_JSON}, {"help", no_argument, NULL, OPTION_HELP}, {0}};
+
+/* Where the bits of a code went; they add up to its size. */
+typedef struct {
+    int header, frame, counts, dimension, heights, starts, differences, padding, check;
+} budget_t;
+
+/* What the regions between the contours are to each other. */
+typedef struct {
+    int parent[YB_MAX_CONTOURS + 1];  /* of a region, seen from region 0; -1: none */
+    int contour[YB_MAX_CONTOURS + 1]; /* the line between a region and its parent */
+    int depth[YB_MAX_CONTOURS + 1];
+} tree_t;
+
+typedef struct {
+    const char *name;
+    const yb_code_file_t *file;
+    budget_t budget;
+    tree_t tree;
+    int points, spots, corners;
+    double cell_m, unit_m;
+} info_t;
+
+static int help(void)
+{
+    fputs(
+        "Usage: yamabiko info MAP.yb [--json]\n"
+        "\n"
+        "Says what is in a code: size and scale of the map, its contours and how they lie in\n"
+        "each other, the mesh that the engine makes of them, and where each bit went. MAP.yb\n"
+        "may be - for the standard input.\n"
+        "\n"
+        "N is the number of points, M of contours (spot heights among them); F = 12 N + 20 M + 8\n"
+        "is the length of the body in bits. The header, the points of each contour and the\n"
+        "check byte come on top.\n"
+        "\n"
+        "D is the fractal dimension of the contours of a level together, H = 2 - D is that of\n"
+        "the surface: the smaller H, the rougher it is.\n"
+        "\n"
+        "  --json                the same for machines\n"
+        "  --help                this text\n"
+        "\n"
+        "Example:\n"
+        "  yamabiko info fuji.yb\n",
+        stdout);
+    return CLI_OK;
+}
+
+static double height_m(const info_t *info, int32_t z_q8)
+{
+    return info->file->map.base_m + z_q8 * info->cell_m / 256;
+}
+
+static double contour_m(const info_t *info, int contour)
+{
+    return height_m(info, info->file->map.vertex[info->file->load.contour[contour].first].z_q8);
+}
+
+static void find_budget(info_t *info)
+{
+    int contours = info->file->load.contour_count;
+    int coded = info->corners > 0 ? info->corners : 1;
+    budget_t *budget = &info->budget;
+    budget->header = HEADER_BITS;
+    budget->frame = 16 * coded;
+    budget->counts = 8 * contours;
+    budget->dimension = 8;
+    budget->heights = 16 * contours;
+    budget->starts = 16 * contours;
+    budget->differences = 12 * (info->points - contours);
+    budget->check = 8;
+    budget->padding = (int)info->file->size * 8 - budget->header - budget->frame - budget->counts -
+                      budget->dimension - budget->heights - budget->starts - budget->differences -
+                      budget->check;
+}
+
+/* Walks from region to region over the lines, each once: their adjacency is a tree. */
+static void find_tree(info_t *info)
+{
+    const yb_load_t *load = &info->file->load;
+    tree_t *tree = &info->tree;
+    bool grown = true;
+    for (int i = 0; i < load->region_count; i++) {
+        tree->parent[i] = -1;
+        tree->contour[i] = -1;
+        tree->depth[i] = i == 0 ? 0 : -1;
+    }
+    while (grown) {
+        grown = false;
+        for (int i = 0; i < load->contour_count; i++) {
+            int a = load->contour[i].left;
+            int b = load->contour[i].right;
+            if (a == b || (tree->depth[a] >= 0) == (tree->depth[b] >= 0))
+                continue;
+            int known = tree->depth[a] >= 0 ? a : b;
+            int found = known == a ? b : a;
+            tree->parent[found] = known;
+            tree->contour[found] = i;
+            tree->depth[found] = tree->depth[known] + 1;
+            grown = true;
+        }
+    }
+}
+
+static void gather(info_t *info, const char *name, const yb_code_file_t *file)
+{
+    memset(info, 0, sizeof(*info));
+    info->name = name;
+    info->file = file;
+    info->cell_m = yb_paper_metres(file->map.cell);
+    info->unit_m = yb_paper_metres(file->map.unit);
+    for (int i = 0; i < file->load.contour_count; i++) {
+        info->points += file->load.contour[i].count;
+        info->spots += file->load.contour[i].count == 1;
+    }
+    for (int bit = 4; bit < 8; bit++)
+        info->corners += file->bytes[1] >> bit & 1;
+    find_budget(info);
+    find_tree(info);
+}
+
+static const char *kind_of(const yb_contour_t *contour)
+{
+    return contour->count == 1 ? "spot" : contour->open ? "open" : "closed";
+}
+
+static void print_tree(const info_t *info)
+{
+    const yb_load_t *load = &info->file->load;
+    /* Depth first, by always taking the next unvisited child of the current region. */
+    bool seen[YB_MAX_CONTOURS + 1] = {false};
+    int at = 0;
+    seen[0] = true;
+    puts("\nregions, as seen from region 0");
+    printf("  region 0\n");
+    while (at >= 0) {
+        int child = 0;
+        while (child < load->region_count && (seen[child] || info->tree.parent[child] != at))
+            child++;
+        if (child == load->region_count) {
+            at = info->tree.parent[at];
+            continue;
+        }
+        at = child;
+        seen[at] = true;
+        int contour = info->tree.contour[at];
+        printf("  %*sregion %d beyond contour %d (%s, %.0f m)\n", 2 * info->tree.depth[at], "", at,
+               contour, kind_of(&load->contour[contour]), contour_m(info, contour));
+    }
+}
+
+static void print_contours(const info_t *info)
+{
+    const yb_load_t *load = &info->file->load;
+    puts("\ncontours");
+    for (int i = 0; i < load->contour_count; i++) {
+        const yb_contour_t *contour = &load->contour[i];
+        const yb_vertex_t *first = &info->file->map.vertex[contour->first];
+        printf("  %3d  %-6s %9.1f m  %3d point%s  from %d,%d", i, kind_of(contour),
+               contour_m(info, i), contour->count, contour->count == 1 ? " " : "s",
+               first->x_q8 >> 8, first->y_q8 >> 8);
+        if (contour->count == 1)
+            printf("  in region %d\n", contour->left);
+        else
+            printf("  between regions %d and %d\n", contour->left, contour->right);
+    }
+}
+
+static void print_budget(const info_t *info)
+{
+    const budget_t *budget = &info->budget;
+    const struct {
+        const char *name;
+        int bits;
+    } row[] = {{"header", budget->header},
+               {"frame heights", budget->frame},
+               {"points per contour", budget->counts},
+               {"dimension", budget->dimension},
+               {"heights", budget->heights},
+               {"first points", budget->starts},
+               {"differences", budget->differences},
+               {"padding", budget->padding},
+               {"check", budget->check}};
+    int all = (int)info->file->size * 8;
+    puts("\nbits");
+    for (size_t i = 0; i < sizeof(row) / sizeof(row[0]); i++)
+        printf("  %-18s %5d  %4.1f %%\n", row[i].name, row[i].bits, 100.0 * row[i].bits / all);
+    printf("  %-18s %5d\n", "in all", all);
+}
+
+static void print_text(const info_t *info)
+{
+    const yb_map_t *map = &info->file->map;
+    int contours = info->file->load.contour_count;
+    int f_bits = 12 * info->points + 20 * contours + 8;
+    double hurst = (map->hurst_q8m1 + 1) / 256.0;
+    int east = map->east_q8 >> 8;
+    int north = map->north_q8 >> 8;
+    printf("%s: %zu bytes, format %d, profile paper\n", info->name, info->file->size,
+           YB_FORMAT_VERSION);
+    printf("  N = %d points, M = %d contours (%d of them spot heights), F = %d bits = %d bytes\n",
+           info->points, contours, info->spots, f_bits, (f_bits + 7) / 8);
+    printf("  frame              %d x %d steps of %.6g m: %.4g x %.4g km\n", east, north,
+           info->cell_m, east * info->cell_m / 1000, north * info->cell_m / 1000);
+    printf("  heights            %.1f to %.1f m, coded in units of %.6g m above %d m\n",
+           height_m(info, map->low_q8), height_m(info, map->high_q8), info->unit_m, map->base_m);
+    printf("  differences        multiples of %d\n", 1 << (info->file->bytes[1] & 3));
+    printf("  corner heights     %d coded\n", info->corners);
+    printf("  D = %.3f, H = %.3f, gain %.2f, seed %d, %s midpoints\n", 2 - hurst, hurst,
+           info->file->bytes[13] / 32.0, map->seed, map->smooth ? "smooth" : "straight");
+    printf("  mesh               %d vertices, %d triangles, %d regions\n", map->vertex_count,
+           map->triangle_count, info->file->load.region_count);
+    print_budget(info);
+    print_contours(info);
+    print_tree(info);
+}
+
+static json_t *json_budget(const budget_t *budget)
+{
+    return json_pack("{s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "header", budget->header,
+                     "frame_heights", budget->frame, "counts", budget->counts, "dimension",
+                     budget->dimension, "heights", budget->heights, "starts", budget->starts,
+                     "differences", budget->differences, "padding", budget->padding, "check",
+                     budget->check);
+}
+
+static json_t *json_contours(const info_t *info)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < info->file->load.contour_count; i++) {
+        const yb_contour_t *contour = &info->file->load.contour[i];
+        json_t *points = json_array();
+        for (int k = 0; k < contour->count; k++) {
+            const yb_vertex_t *at = &info->file->map.vertex[contour->first + k];
+            json_array_append_new(points, json_pack("[i, i]", at->x_q8 >> 8, at->y_q8 >> 8));
+        }
+        json_array_append_new(list, json_pack("{s:s, s:f, s:i, s:i, s:o}", "kind", kind_of(contour),
+                                              "height_m", contour_m(info, i), "left", contour->left,
+                                              "right", contour->right, "points", points));
+    }
+    return list;
+}
+
+static json_t *json_regions(const info_t *info)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < info->file->load.region_count; i++)
+        json_array_append_new(list, json_pack("{s:i, s:i}", "parent", info->tree.parent[i],
+                                              "contour", info->tree.contour[i]));
+    return list;
+}
+
+static int print_json(const info_t *info)
+{
+    const yb_map_t *map = &info->file->map;
+    int contours = info->file->load.contour_count;
+    double hurst = (map->hurst_q8m1 + 1) / 256.0;
+    json_t *root = json_pack("{s:s, s:I, s:i, s:s, s:i, s:i, s:i}", "file", info->name, "bytes",
+                             (json_int_t)info->file->size, "format", YB_FORMAT_VERSION, "profile",
+                             "paper", "n", info->points, "m", contours, "f_bits",
+                             12 * info->points + 20 * contours + 8);
+    if (root == NULL)
+        return cli_fail("out of memory");
+    json_object_set_new(root, "east", json_integer(map->east_q8 >> 8));
+    json_object_set_new(root, "north", json_integer(map->north_q8 >> 8));
+    json_object_set_new(root, "shift", json_integer(info->file->bytes[1] & 3));
+    json_object_set_new(root, "corners_coded", json_integer(info->corners));
+    json_object_set_new(root, "cell_m", json_real(info->cell_m));
+    json_object_set_new(root, "unit_m", json_real(info->unit_m));
+    json_object_set_new(root, "base_m", json_integer(map->base_m));
+    json_object_set_new(root, "low_m", json_real(height_m(info, map->low_q8)));
+    json_object_set_new(root, "high_m", json_real(height_m(info, map->high_q8)));
+    json_object_set_new(root, "dimension", json_real(2 - hurst));
+    json_object_set_new(root, "hurst", json_real(hurst));
+    json_object_set_new(root, "gain", json_real(info->file->bytes[13] / 32.0));
+    json_object_set_new(root, "seed", json_integer(map->seed));
+    json_object_set_new(root, "smooth", json_boolean(map->smooth));
+    json_object_set_new(root, "vertices", json_integer(map->vertex_count));
+    json_object_set_new(root, "triangles", json_integer(map->triangle_count));
+    json_object_set_new(root, "bits", json_budget(&info->budget));
+    json_object_set_new(root, "contours", json_contours(info));
+    json_object_set_new(root, "regions", json_regions(info));
+    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(8));
+    putchar('\n');
+    json_decref(root);
+    return CLI_OK;
+}
+
+int cli_info(int argc, char **argv)
+{
+    bool json = false;
+    int answer = 0;
+    while ((answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
+        if (answer == OPTION_HELP)
+            return help();
+        if (answer != OPTION_JSON)
+            return cli_bad_option(answer, argc, argv);
+        json = true;
+    }
+    if (argc - optind != 1)
+        return cli_usage(argc == optind ? "name the map" : "more than one map");
+    yb_error_t error;
+    yb_code_file_t *file = yb_code_file_read(argv[optind], &error);
+    if (file == NULL)
+        return cli_fail("%s", error.text);
+    info_t *info = calloc(1, sizeof(*info));
+    int status = CLI_OK;
+    if (info == NULL) {
+        status = cli_fail("out of memory");
+    } else {
+        gather(info, strcmp(argv[optind], "-") == 0 ? "the standard input" : argv[optind], file);
+        if (json)
+            status = print_json(info);
+        else
+            print_text(info);
+    }
+    free(info);
+    yb_code_file_free(file);
+    return status;
+}

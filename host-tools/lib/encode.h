@@ -1,0 +1,53 @@
+/* From a relief to a code: the whole encoder.
+ *
+ *     relief ─► contour lines ─► feature points ─► draft ─► search ─► code
+ *                                                   ▲          │
+ *                                                   └─ engine ─┘   analysis by synthesis
+ */
+#ifndef YB_ENCODE_H
+#define YB_ENCODE_H
+
+#include "code_file.h"
+#include "contour_lines.h"
+#include "grid.h"
+
+enum {
+    YB_ENCODE_DEFAULT_BYTES = 100,
+    YB_ENCODE_LEAST_BYTES = 23, /* a header, one summit, the check byte */
+    YB_ENCODE_DEFAULT_EFFORT = 5,
+    YB_ENCODE_MOST_EFFORT = 9,
+    YB_ENCODE_MOST_LEVELS = 64
+};
+
+typedef struct {
+    size_t most_bytes;
+    int levels;        /* so many evenly spaced heights for lines; 0: see below */
+    double interval_m; /* lines at multiples of it; 0: heights are the encoder's choice */
+    uint8_t seed;      /* of the map's noise */
+    int effort;        /* 1 to 9: the number of trials doubles with each step */
+    void (*progress)(void *context, double share); /* may be NULL */
+    void *context;
+} yb_encode_task_t;
+
+typedef struct {
+    yb_code_file_t *code;
+    double rmse_m;    /* smooth surface against the relief */
+    double std_m;     /* of the relief */
+    double dimension; /* measured on all contour lines */
+    long trials;
+} yb_encode_result_t;
+
+/* Codes a grid. False with a sentence on failure, else the caller frees result->code by
+ * yb_code_file_free. Equal input gives equal bytes.
+ */
+bool yb_encode_grid(const yb_grid_t *grid, const yb_encode_task_t *task, yb_encode_result_t *result,
+                    yb_error_t *error);
+
+/* Codes contour lines. Between them the relief is taken to rise evenly, and the innermost ones are
+ * taken to hold a summit (or a pit) half an interval beyond; that surface then counts as the truth.
+ * Lines keep the heights they have, unless the task names other ones.
+ */
+bool yb_encode_lines(const yb_lines_t *lines, const yb_encode_task_t *task,
+                     yb_encode_result_t *result, yb_error_t *error);
+
+#endif

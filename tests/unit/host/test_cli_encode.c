@@ -1,0 +1,197 @@
+/* The verbs encode and info as their users meet them: what they say, how they end, and that a
+ * failure leaves no file behind. The program is the first argument.
+ */
+#include "scratch.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <sys/wait.h>
+
+#include <jansson.h>
+
+static const char *program;
+static char said[65536]; /* by the last run, both streams */
+
+/* Runs the program in a shell; answers its exit code. */
+static int run(const char *arguments)
+{
+    char command[4096];
+    snprintf(command, sizeof(command), "'%s' %s 2>&1", program, arguments);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t size = fread(said, 1, sizeof(said) - 1, pipe);
+    said[size] = '\0';
+    int status = pclose(pipe);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+/* Runs encode on an input with some options, writing to "out.yb". */
+static int encode(const char *input, const char *more)
+{
+    char arguments[2048];
+    snprintf(arguments, sizeof(arguments), "encode %s -o %s --effort 1 %s", input,
+             scratch_path("out.yb"), more);
+    return run(arguments);
+}
+
+static void expect_failure(const char *input, const char *more, int code, const char *sentence)
+{
+    int files = scratch_files();
+    int answer = encode(input, more);
+    if (answer != code || strstr(said, sentence) == NULL)
+        fail_msg("encode %s %s: exit code %d and \"%s\"; expected %d and \"%s\"", input, more,
+                 answer, said, code, sentence);
+    assert_int_equal(scratch_files(), files);
+    assert_false(scratch_exists(scratch_path("out.yb")));
+}
+
+static void test_bad_usage(void **state)
+{
+    (void)state;
+    const char *dem = scratch_path("range.tif");
+    assert_int_equal(run("encode"), 2);
+    assert_non_null(strstr(said, "name the relief"));
+    assert_int_equal(run("encode x.tif"), 2);
+    assert_non_null(strstr(said, "-o MAP.yb"));
+    expect_failure(dem, "--nonsense", 2, "unknown option '--nonsense'");
+    expect_failure(dem, "--bytes", 2, "needs a value");
+    expect_failure(dem, "--bytes 22", 2, "the least is 23");
+    expect_failure(dem, "--bytes 1300", 2, "from 23 to 1299");
+    expect_failure(dem, "--bytes many", 2, "from 23 to 1299");
+    expect_failure(dem, "--profile compact", 2, "not in this version");
+    expect_failure(dem, "--profile plain", 2, "no profile 'plain'");
+    expect_failure(dem, "--levels 0", 2, "from 1 to 64");
+    expect_failure(dem, "--interval -5", 2, "above 0");
+    expect_failure(dem, "--levels 3 --interval 100", 2, "exclude each other");
+    expect_failure(dem, "--effort 10", 2, "from 1 to 9");
+    expect_failure(dem, "--seed 256", 2, "from 0 to 255");
+    expect_failure(dem, "--window 1 2 3", 2, "four numbers");
+    expect_failure(dem, "--window 5 0 1 1", 2, "is empty");
+    expect_failure(dem, "--center 200 0", 2, "longitude");
+    expect_failure(dem, "--km 5", 2, "--km needs --center");
+    expect_failure(dem, "--center 9 46 --window 0 0 1 1", 2, "exclude each other");
+    expect_failure(dem, "another.tif", 2, "more than one input");
+}
+
+static void test_bad_inputs(void **state)
+{
+    (void)state;
+    const char *text = scratch_path("text.txt");
+    scratch_text(text, "nothing here\n");
+    expect_failure(scratch_path("none.tif"), "", 1, "No such file");
+    expect_failure(text, "", 1, "no raster that GDAL can read");
+    const char *flat = scratch_path("flat.tif");
+    scratch_raster(flat, 32, 32, relief_flat);
+    expect_failure(flat, "", 1, "is flat: all heights of the window are 5 m");
+    const char *dem = scratch_path("range.tif");
+    expect_failure(dem, "--window 0 0 10 10", 1, "reaches out of");
+    expect_failure(dem, "--center 120 10", 1, "does not lie on");
+    expect_failure(dem, "--interval 90000", 1, "choose a smaller interval");
+    expect_failure(dem, "--field height", 1, "no raster and no vector");
+    const char *lines = scratch_path("names.geojson");
+    scratch_text(lines, "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\","
+                        "\"properties\":{\"name\":\"a\"},\"geometry\":{\"type\":\"LineString\","
+                        "\"coordinates\":[[0,0],[1,1],[2,0],[0,0]]}}]}");
+    expect_failure(lines, "", 1, "--field");
+    expect_failure(lines, "--field height", 1, "no attribute 'height'");
+}
+
+static void test_output_is_kept(void **state)
+{
+    (void)state;
+    const char *dem = scratch_path("range.tif");
+    const char *out = scratch_path("out.yb");
+    scratch_text(out, "precious");
+    assert_int_equal(encode(dem, ""), 1);
+    assert_non_null(strstr(said, "exists already; --force overwrites it"));
+    assert_int_equal(encode(dem, "--force -q"), 0);
+    assert_string_equal(said, "");
+    remove(out);
+    char arguments[1024];
+    snprintf(arguments, sizeof(arguments), "encode %s -o %s", dem, scratch_path("no/where.yb"));
+    assert_int_equal(run(arguments), 1);
+    assert_non_null(strstr(said, "no such directory"));
+}
+
+static long long number(const json_t *root, const char *key)
+{
+    const json_t *value = json_object_get(root, key);
+    assert_true(json_is_integer(value));
+    return json_integer_value(value);
+}
+
+static void test_info_adds_up(void **state)
+{
+    (void)state;
+    char arguments[1024];
+    assert_int_equal(encode(scratch_path("range.tif"), "--bytes 90 --json"), 0);
+    json_t *made = json_loads(said, 0, NULL);
+    assert_non_null(made);
+    snprintf(arguments, sizeof(arguments), "info %s --json", scratch_path("out.yb"));
+    assert_int_equal(run(arguments), 0);
+    json_t *info = json_loads(said, 0, NULL);
+    assert_non_null(info);
+    assert_int_equal(number(info, "bytes"), number(made, "bytes"));
+    assert_int_equal(number(info, "f_bits"), number(made, "f_bits"));
+    assert_true(number(info, "bytes") <= 90);
+    long long bits = 0;
+    const char *key = NULL;
+    json_t *value = NULL;
+    json_object_foreach(json_object_get(info, "bits"), key, value) bits +=
+        json_integer_value(value);
+    assert_int_equal(bits, 8 * number(info, "bytes"));
+    assert_int_equal(json_array_size(json_object_get(info, "contours")), number(info, "m"));
+    json_decref(made);
+    json_decref(info);
+    snprintf(arguments, sizeof(arguments), "info - < %s", scratch_path("out.yb"));
+    assert_int_equal(run(arguments), 0);
+    assert_non_null(strstr(said, "the standard input"));
+    assert_non_null(strstr(said, "region 0"));
+    remove(scratch_path("out.yb"));
+}
+
+static void test_pipes(void **state)
+{
+    (void)state;
+    char arguments[1024];
+    snprintf(arguments, sizeof(arguments), "encode %s --effort 1 -q -o - | '%s' info -",
+             scratch_path("range.tif"), program);
+    assert_int_equal(run(arguments), 0);
+    assert_non_null(strstr(said, "profile paper"));
+    assert_int_equal(run("info /dev/null"), 1);
+    assert_non_null(strstr(said, "is empty"));
+    assert_int_equal(run("info"), 2);
+    assert_int_equal(run("encode --help"), 0);
+    assert_non_null(strstr(said, "Usage: yamabiko encode"));
+    assert_int_equal(run("info --help"), 0);
+}
+
+static int begin(void **state)
+{
+    int status = scratch_begin(state);
+    if (status == 0)
+        scratch_raster(scratch_path("range.tif"), 64, 64, relief_range);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 2)
+        return 2;
+    program = argv[1];
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bad_usage),      cmocka_unit_test(test_bad_inputs),
+        cmocka_unit_test(test_output_is_kept), cmocka_unit_test(test_info_adds_up),
+        cmocka_unit_test(test_pipes),
+    };
+    return cmocka_run_group_tests(tests, begin, scratch_end);
+}

@@ -1,0 +1,154 @@
+/* The encoder as a whole, on reliefs made here. */
+#include "encode.h"
+#include "paper_code.h"
+#include "scratch.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+static void encode_grid(const yb_grid_t *grid, const yb_encode_task_t *task,
+                        yb_encode_result_t *result)
+{
+    yb_error_t error;
+    if (!yb_encode_grid(grid, task, result, &error))
+        fail_msg("%s", error.text);
+    assert_true(result->code->size <= task->most_bytes);
+}
+
+static double contour_m(const yb_code_file_t *code, int contour)
+{
+    const yb_vertex_t *first = &code->map.vertex[code->load.contour[contour].first];
+    return code->map.base_m + first->z_q8 * yb_paper_metres(code->map.cell) / 256;
+}
+
+static void test_near_the_relief(void **state)
+{
+    (void)state;
+    const relief_fn reliefs[] = {relief_cone, relief_range};
+    for (int i = 0; i < 2; i++) {
+        yb_grid_t *grid = scratch_grid(128, 96, reliefs[i]);
+        yb_encode_task_t task = {.most_bytes = 100, .seed = 1, .effort = 1};
+        yb_encode_result_t result;
+        encode_grid(grid, &task, &result);
+        assert_true(result.rmse_m / result.std_m < 0.12);
+        /* The summit is there, at its height. */
+        assert_int_equal(result.code->load.contour[0].count, 1);
+        assert_true(fabs(contour_m(result.code, 0) - (double)grid->high_m) < 1);
+        yb_code_file_free(result.code);
+        yb_grid_free(grid);
+    }
+}
+
+static void test_same_bytes_again(void **state)
+{
+    (void)state;
+    yb_grid_t *grid = scratch_grid(64, 64, relief_range);
+    yb_encode_task_t task = {.most_bytes = 80, .seed = 3, .effort = 1};
+    yb_encode_result_t first;
+    yb_encode_result_t second;
+    encode_grid(grid, &task, &first);
+    encode_grid(grid, &task, &second);
+    assert_int_equal(first.code->size, second.code->size);
+    assert_memory_equal(first.code->bytes, second.code->bytes, first.code->size);
+    yb_code_file_free(first.code);
+    yb_code_file_free(second.code);
+    yb_grid_free(grid);
+}
+
+static void test_budgets(void **state)
+{
+    (void)state;
+    yb_grid_t *grid = scratch_grid(64, 64, relief_range);
+    double before = HUGE_VAL;
+    const size_t budgets[] = {YB_ENCODE_LEAST_BYTES, 60, 240};
+    for (int i = 0; i < 3; i++) {
+        yb_encode_task_t task = {.most_bytes = budgets[i], .seed = 1, .effort = 1};
+        yb_encode_result_t result;
+        encode_grid(grid, &task, &result);
+        assert_true(result.rmse_m < before);
+        before = result.rmse_m;
+        yb_code_file_free(result.code);
+    }
+    yb_error_t error;
+    yb_encode_result_t result;
+    yb_encode_task_t task = {.most_bytes = YB_ENCODE_LEAST_BYTES - 1, .effort = 1};
+    assert_false(yb_encode_grid(grid, &task, &result, &error));
+    assert_non_null(strstr(error.text, "the least is 23"));
+    yb_grid_free(grid);
+}
+
+static void test_levels_are_kept(void **state)
+{
+    (void)state;
+    yb_error_t error;
+    yb_grid_t *grid = scratch_grid(64, 64, relief_range);
+    yb_encode_task_t task = {.most_bytes = 120, .interval_m = 250, .seed = 1, .effort = 1};
+    yb_encode_result_t result;
+    encode_grid(grid, &task, &result);
+    int lines = 0;
+    for (int i = 0; i < result.code->load.contour_count; i++)
+        if (result.code->load.contour[i].count > 1) {
+            double height = contour_m(result.code, i);
+            assert_true(fabs(height - 250 * round(height / 250)) < 1);
+            lines++;
+        }
+    assert_true(lines > 0);
+    yb_code_file_free(result.code);
+    task.interval_m = 1e6;
+    assert_false(yb_encode_grid(grid, &task, &result, &error));
+    assert_non_null(strstr(error.text, "choose a smaller interval"));
+    task.interval_m = 0.5;
+    assert_false(yb_encode_grid(grid, &task, &result, &error));
+    assert_non_null(strstr(error.text, "choose a larger one"));
+    yb_grid_free(grid);
+}
+
+/* Three closed lines and an open one, given as lines. */
+static void test_lines(void **state)
+{
+    (void)state;
+    yb_error_t error;
+    yb_lines_t *lines = yb_lines_new(4000, 3000);
+    for (int k = 0; k < 3; k++) {
+        yb_place_t ring[40];
+        for (int i = 0; i < 40; i++) {
+            double angle = 6.283185307179586 * i / 40;
+            ring[i] = (yb_place_t){2000 + (1000 - 300 * k) * cos(angle),
+                                   1800 + (900 - 250 * k) * sin(angle)};
+        }
+        assert_true(yb_lines_add(lines, 200 + 100 * k, true, ring, 40));
+    }
+    yb_place_t across[] = {{0, 500}, {2000, 400}, {4000, 600}};
+    assert_true(yb_lines_add(lines, 100, false, across, 3));
+    yb_encode_task_t task = {.most_bytes = 100, .seed = 1, .effort = 1};
+    yb_encode_result_t result;
+    if (!yb_encode_lines(lines, &task, &result, &error))
+        fail_msg("%s", error.text);
+    for (int i = 0; i < result.code->load.contour_count; i++)
+        if (result.code->load.contour[i].count > 1) {
+            double height = contour_m(result.code, i);
+            assert_true(fabs(height - 100 * round(height / 100)) < 1);
+        }
+    assert_true(result.rmse_m / result.std_m < 0.3);
+    yb_code_file_free(result.code);
+    yb_lines_free(lines);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_near_the_relief), cmocka_unit_test(test_same_bytes_again),
+        cmocka_unit_test(test_budgets),         cmocka_unit_test(test_levels_are_kept),
+        cmocka_unit_test(test_lines),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
