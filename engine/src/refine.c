@@ -7,6 +7,17 @@
 #include "shade.h"
 #include "split.h"
 
+/* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
+static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+{
+    int32_t highest = fix_max(a->at.z_q8, b->at.z_q8);
+    if (highest >= frame->view.water_q8)
+        return false;
+    relief_bound_t bound;
+    relief_bound(frame->map, &a->at, &b->at, &b->at, &bound);
+    return highest + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
+}
+
 bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     int32_t dx = b->at.x_q8 - a->at.x_q8;
@@ -16,7 +27,7 @@ bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_
     /* By plan length over the nearest depth; both ends as they are, unclipped. Length < 2^17 and
      * split_q4 < 2^14; depth < 2^24. */
     int32_t depth = fix_max(fix_min(a->depth_q8, b->depth_q8), frame->near_q8);
-    return fix_length(dx, dy) * frame->split_q4 > depth << 4;
+    return fix_length(dx, dy) * frame->split_q4 > depth << 4 && !drowned(frame, a, b);
 }
 
 void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,

@@ -204,6 +204,17 @@ static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_
     return (variance >> 1) + fix_log2_q11(load->gain) - 5 * 2048;
 }
 
+/* How far noise may move the midpoint of an edge of class c: by its largest hash, and by gravity
+ * not beyond the length of the longest edge of the class. Its squared half length is below 1.061 ·
+ * 2^((c + 1) / 2), so fix_length is below 2 · 1.03 · 1.068 · 2^((c + 1) / 4).
+ */
+static uint32_t most_move(uint32_t scale, int c)
+{
+    uint32_t length = (fix_exp2_q11((c + 1) * 512) + 1) * 9 / 4;
+    uint32_t move = (scale * HASH_MOST >> NOISE_SHIFT) + 1;
+    return move < length ? move : length;
+}
+
 /* The table of noise scales per length class, and from it how far a point can be moved in all. The
  * children of a triangle have no edge longer than half its longest after at most two splits that
  * move a point, each by the noise of the longest class or less: twice that, and on with the class
@@ -220,7 +231,7 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
             scale = fix_exp2_q11(e + NOISE_SHIFT * 2048 - HASH_LOG2_Q11);
         }
         map->noise[c] = (uint16_t)(scale > 65535 ? 65535 : scale);
-        uint32_t move = ((uint32_t)map->noise[c] * HASH_MOST >> NOISE_SHIFT) + 1;
+        uint32_t move = most_move(map->noise[c], c);
         uint32_t reach = scale == 0 ? 0 : 2 * move + (c >= 4 ? map->reach_q8[c - 4] : 0u);
         map->reach_q8[c] = (uint16_t)(reach > 65535 ? 65535 : reach);
     }

@@ -2,8 +2,10 @@
 
 #include <stdlib.h>
 
+#include "clip.h"
 #include "raster.h"
 #include "refine.h"
+#include "relief.h"
 #include "shade.h"
 #include "split.h"
 
@@ -14,11 +16,32 @@ typedef struct {
     uint32_t count;
 } walk_t;
 
+/* With twice the room that its relief may need. Without this all that lies behind the eye would be
+ * refined as if it touched it.
+ */
+bool plain_behind(const yb_frame_t *frame, const yb_point_t *const corner[3])
+{
+    relief_bound_t bound;
+    relief_bound(frame->map, &corner[0]->at, &corner[1]->at, &corner[2]->at, &bound);
+    int64_t reach = relief_reach(frame->map, &bound, 0);
+    int64_t lift = frame->lift_back_q9 < 0 ? -frame->lift_back_q9 : frame->lift_back_q9;
+    for (int i = 0; i < 3; i++) {
+        int64_t stray = 2 * reach + 256;
+        if (frame->view.water_q8 > corner[i]->at.z_q8)
+            stray += frame->view.water_q8 - (int64_t)corner[i]->at.z_q8;
+        if (corner[i]->depth_q8 + (stray * lift >> 9) >= frame->near_q8)
+            return false;
+    }
+    return true;
+}
+
 static void walk(walk_t *at, const yb_point_t *const corner[3], int level)
 {
     const yb_point_t *point[6] = {corner[0], corner[1], corner[2]};
     yb_point_t middle[3];
     int pattern = 0;
+    if (plain_behind(at->frame, corner))
+        return;
     for (int i = 0; i < 3 && level + 1 < YB_MAX_LEVELS; i++) {
         const yb_point_t *a = corner[i];
         const yb_point_t *b = corner[(i + 1) % 3];
@@ -62,7 +85,12 @@ static void draw_leaf(void *context, const yb_point_t *const corner[3])
 {
     drawing_t *drawing = context;
     uint16_t pixel = shade_ground(drawing->frame, &corner[0]->at, &corner[1]->at, &corner[2]->at);
-    (void)clip_draw(drawing->frame, &drawing->raster, corner, pixel);
+    raster_point_t place[3];
+    raster_setup_t setup;
+    if (clip_needs(drawing->frame, corner, place))
+        (void)clip_draw(drawing->frame, &drawing->raster, corner, pixel);
+    else if (raster_setup(&drawing->raster, place, &setup))
+        raster_fill(&drawing->raster, &setup, pixel);
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)

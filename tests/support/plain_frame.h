@@ -1,4 +1,6 @@
-/* A frame drawn the plain way: by recursion, nothing dropped, nothing binned; and random views. */
+/* A frame drawn the plain way: by recursion, nothing binned, nothing dropped but what lies behind
+ * the eye; and random views.
+ */
 #ifndef TEST_PLAIN_FRAME_H
 #define TEST_PLAIN_FRAME_H
 
@@ -12,6 +14,9 @@ typedef void (*plain_leaf_fn)(void *context, const yb_point_t *const corner[3]);
 
 /* Hands out the leaves of a frame that has begun; returns how many. */
 uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context);
+
+/* Lies a triangle, with all that it may become, behind the eye? With plenty to spare. */
+bool plain_behind(const yb_frame_t *frame, const yb_point_t *const corner[3]);
 
 /* Draws all rows of a frame that has begun. */
 void plain_frame(yb_frame_t *frame, const yb_band_t *band);

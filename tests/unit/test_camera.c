@@ -234,7 +234,7 @@ static void any_view_at_all(void **state)
     rng_t rng = {53};
     static uint16_t depth[64 * 48];
     static uint8_t pixels[64 * 48 * 2];
-    for (int round = 0; round < 2000; round++) {
+    for (int round = 0; round < 20000; round++) {
         plan_t plan;
         if (round % 40 == 0) {
             random_plan(&plan, &rng);
