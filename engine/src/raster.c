@@ -143,12 +143,17 @@ void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t p
     int32_t near_x = 0;
     int32_t near_y = 0;
     depth_gradient(p, setup->area, &near_x, &near_y);
-    /* Unsigned: partial sums may wrap, the depth inside the triangle does not. */
+    /* From the first pixel of corner 0, whole pixels to where this band begins: the same depth in
+     * every band. Unsigned: partial sums may wrap, the depth inside the triangle does not. */
+    int32_t x = first_pixel(p[0].x_q4);
+    int32_t y = first_pixel(p[0].y_q4);
     uint32_t near = ((uint32_t)p[0].near << 14) + (1u << 13) +
-                    (uint32_t)(near_x >> 4) * (uint32_t)(setup->x0 * 16 + 8 - p[0].x_q4) +
-                    (uint32_t)(near_y >> 4) * (uint32_t)(setup->y0 * 16 + 8 - p[0].y_q4);
+                    (uint32_t)(near_x >> 4) * (uint32_t)(x * 16 + 8 - p[0].x_q4) +
+                    (uint32_t)(near_y >> 4) * (uint32_t)(y * 16 + 8 - p[0].y_q4) +
+                    (uint32_t)near_x * (uint32_t)(setup->x0 - x) +
+                    (uint32_t)near_y * (uint32_t)(setup->y0 - y);
     const yb_band_t *band = raster->band;
-    for (int32_t y = setup->y0; y < setup->y1; y++) {
+    for (y = setup->y0; y < setup->y1; y++) {
         int32_t line = y - raster->first_row;
         uint16_t *depth = band->depth + line * raster->screen->width;
         uint8_t *row = band->pixels + (size_t)line * band->pitch;
@@ -156,7 +161,7 @@ void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t p
         raster_area_t b = edge[1].value;
         raster_area_t c = edge[2].value;
         uint32_t here = near;
-        for (int32_t x = setup->x0; x < setup->x1; x++) {
+        for (x = setup->x0; x < setup->x1; x++) {
             if ((a | b | c) >= 0 && depth_of(here) > depth[x]) {
                 depth[x] = depth_of(here);
                 put_pixel(raster, row, x, pixel);

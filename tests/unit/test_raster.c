@@ -153,12 +153,14 @@ static void bands_are_parts_of_the_whole(void **state)
 {
     (void)state;
     rng_t rng = {42};
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < 2000; round++) {
         raster_point_t corner[3];
+        int depths = 65534 >> rng_range(&rng, 0, 12);
+        int least = rng_range(&rng, 1, 65535 - depths);
         for (int i = 0; i < 3; i++) {
             corner[i].x_q4 = rng_range(&rng, -WIDTH * 16, 2 * WIDTH * 16);
             corner[i].y_q4 = rng_range(&rng, -HEIGHT * 16, 2 * HEIGHT * 16);
-            corner[i].near = rng_range(&rng, 1, 65535);
+            corner[i].near = least + rng_range(&rng, 0, depths);
         }
         yb_format_t format = round % 2 == 0 ? YB_RGB565 : YB_GREY4;
         page_t page;

@@ -1,0 +1,333 @@
+/* Whole frames: the same in any bands, nothing dropped that is seen, no cracks, bounded. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <yamabiko/yamabiko.h>
+
+#include "camera.h"
+#include "check.h"
+#include "plain_frame.h"
+#include "random_plan.h"
+
+enum {
+    WIDTH = 320,
+    HEIGHT = 240
+};
+
+static yb_map_t map;
+static yb_load_t load;
+static yb_frame_t frame;
+static uint16_t depth[WIDTH * HEIGHT];
+static uint8_t whole[WIDTH * HEIGHT * 2];
+static uint8_t again[WIDTH * HEIGHT * 2];
+
+static void load_plan(const plan_t *plan)
+{
+    uint8_t bytes[PLAN_MAX_BYTES];
+    assert_int_equal(yb_map_load(&map, &load, bytes, plan_write(plan, bytes)), YB_OK);
+}
+
+static const yb_screen_t *random_scene(rng_t *rng, int round, yb_view_t *view)
+{
+    static const yb_screen_t screens[] = {{128, 64, YB_GREY4},
+                                          {160, 120, YB_RGB565},
+                                          {96, 160, YB_GREY4},
+                                          {WIDTH, HEIGHT, YB_RGB565}};
+    if (round % 8 == 0) {
+        plan_t plan;
+        random_plan(&plan, rng);
+        load_plan(&plan);
+    }
+    random_view(view, &map, rng);
+    return &screens[round % 4];
+}
+
+static void draw(uint8_t *pixels, int y, int rows)
+{
+    size_t pitch = yb_screen_pitch(&frame.screen);
+    yb_band_t band = {(uint16_t)y, (uint16_t)rows, depth, pixels + (size_t)y * pitch, pitch};
+    yb_frame_band(&frame, &band);
+}
+
+/* --- Bands ------------------------------------------------------------------------------------ */
+
+static void any_bands_give_the_same_picture(void **state)
+{
+    (void)state;
+    rng_t rng = {71};
+    for (int round = 0; round < 240; round++) {
+        yb_view_t view;
+        const yb_screen_t *screen = random_scene(&rng, round, &view);
+        yb_frame_begin(&frame, &map, &view, screen);
+        size_t size = yb_screen_pitch(screen) * screen->height;
+        draw(whole, 0, screen->height);
+        const int heights[] = {1, 8, 16, rng_range(&rng, 2, 50)};
+        for (int k = round % 3 == 0 ? 0 : 1; k < 4; k++) {
+            memset(again, 0x5a, sizeof again);
+            int bands = (screen->height + heights[k] - 1) / heights[k];
+            int start = rng_range(&rng, 0, bands - 1);
+            int stride = bands > 1 ? rng_range(&rng, 1, bands - 1) : 1;
+            while (bands > 1 && (bands % stride == 0 && stride > 1))
+                stride--;
+            bool done[HEIGHT] = {false};
+            for (int i = 0, at = start; i < bands; i++, at = (at + stride) % bands) {
+                while (done[at])
+                    at = (at + 1) % bands;
+                done[at] = true;
+                int y = at * heights[k];
+                int rows = screen->height - y < heights[k] ? screen->height - y : heights[k];
+                draw(again, y, rows);
+            }
+            CHECK(memcmp(whole, again, size) == 0, "view %d differs in bands of %d", round,
+                  heights[k]);
+        }
+    }
+}
+
+static void a_band_leaves_the_rest_alone(void **state)
+{
+    (void)state;
+    rng_t rng = {72};
+    yb_view_t view;
+    (void)random_scene(&rng, 0, &view);
+    yb_screen_t screen = {64, 40, YB_GREY4};
+    yb_frame_begin(&frame, &map, &view, &screen);
+    memset(again, 0xa5, sizeof again);
+    /* Eight rows asked for from row 36: four of them are below the screen. */
+    yb_band_t band = {36, 8, depth, again, 40};
+    yb_frame_band(&frame, &band);
+    for (size_t i = 0; i < sizeof again; i++)
+        assert_true(again[i] == 0xa5 || (i / 40 < 4 && i % 40 < 32));
+    band.y = 40;
+    memset(again, 0xa5, sizeof again);
+    yb_frame_band(&frame, &band);
+    for (size_t i = 0; i < sizeof again; i++)
+        assert_true(again[i] == 0xa5);
+}
+
+/* --- Nothing seen is dropped ------------------------------------------------------------------ */
+
+static void culling_changes_no_pixel(void **state)
+{
+    (void)state;
+    rng_t rng = {73};
+    for (int round = 0; round < 320; round++) {
+        yb_view_t view;
+        const yb_screen_t *screen = random_scene(&rng, round, &view);
+        if (view.edge_q4 < 96)
+            view.edge_q4 = 96;
+        yb_frame_begin(&frame, &map, &view, screen);
+        draw(whole, 0, screen->height);
+        yb_band_t band = {0, screen->height, depth, again, yb_screen_pitch(screen)};
+        plain_frame(&frame, &band);
+        CHECK(memcmp(whole, again, yb_screen_pitch(screen) * screen->height) == 0,
+              "view %d differs from the plain drawing", round);
+    }
+}
+
+/* --- Cracks ----------------------------------------------------------------------------------- */
+
+enum {
+    CRACK_WIDTH = 128,
+    CRACK_HEIGHT = 64,
+    AROUND = 9
+};
+
+/* Rays through the centres of pixels and eight places round each, and which of them met a leaf. */
+static uint16_t met[CRACK_WIDTH * CRACK_HEIGHT];
+
+static double determinant(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* Marks the rays that meet the front of a leaf beyond the near distance. */
+static void cast(void *context, const yb_point_t *const corner[3])
+{
+    (void)context;
+    double p[3][3];
+    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+    bool ahead = true;
+    for (int i = 0; i < 3; i++) {
+        camera_point_t place;
+        camera_place(&frame, corner[i], &place);
+        p[i][0] = place.right_q8;
+        p[i][1] = place.up_q8;
+        p[i][2] = place.depth_q8;
+        ahead = ahead && place.depth_q8 >= frame.near_q8;
+        double x = CRACK_WIDTH / 2 + p[i][0] / p[i][2] * frame.focal_q4 / 16;
+        double y = CRACK_HEIGHT / 2 - p[i][1] / p[i][2] * frame.focal_q4 / 16;
+        left = fmin(left, x);
+        right = fmax(right, x);
+        top = fmin(top, y);
+        bottom = fmax(bottom, y);
+    }
+    double volume = determinant(p[0], p[1], p[2]);
+    if (volume >= 0)
+        return; /* right, up, depth are left-handed: the front is negative */
+    int x0 = ahead ? (int)fmax(left - 1, 0) : 0;
+    int x1 = ahead ? (int)fmin(right + 1, CRACK_WIDTH - 1) : CRACK_WIDTH - 1;
+    int y0 = ahead ? (int)fmax(top - 1, 0) : 0;
+    int y1 = ahead ? (int)fmin(bottom + 1, CRACK_HEIGHT - 1) : CRACK_HEIGHT - 1;
+    for (int y = y0; y <= y1; y++) {
+        for (int x = x0; x <= x1; x++) {
+            for (int k = 0; k < AROUND; k++) {
+                double ray[3] = {(x + 0.5 + (k % 3 - 1) * 0.25 - CRACK_WIDTH / 2) * 16,
+                                 (CRACK_HEIGHT / 2 - y - 0.5 + (k / 3 - 1) * 0.25) * 16,
+                                 frame.focal_q4};
+                double a = determinant(ray, p[1], p[2]);
+                double b = determinant(p[0], ray, p[2]);
+                double c = determinant(p[0], p[1], ray);
+                if (a > 0 || b > 0 || c > 0)
+                    continue;
+                double far = volume / (a + b + c) * frame.focal_q4;
+                if (far >= frame.near_q8 * 1.02 + 2)
+                    met[y * CRACK_WIDTH + x] |= (uint16_t)(1 << k);
+            }
+        }
+    }
+}
+
+static void there_are_no_cracks(void **state)
+{
+    (void)state;
+    rng_t rng = {74};
+    int hit = 0;
+    for (int round = 0; round < 400; round++) {
+        yb_view_t view;
+        (void)random_scene(&rng, round, &view);
+        view.walls = false;
+        if (view.edge_q4 < 64)
+            view.edge_q4 = 64;
+        const yb_screen_t screen = {CRACK_WIDTH, CRACK_HEIGHT, YB_GREY4};
+        yb_frame_begin(&frame, &map, &view, &screen);
+        draw(whole, 0, screen.height);
+        memset(met, 0, sizeof met);
+        (void)plain_leaves(&frame, cast, NULL);
+        for (int i = 0; i < CRACK_WIDTH * CRACK_HEIGHT; i++) {
+            if (met[i] != (1 << AROUND) - 1)
+                continue;
+            hit++;
+            int pixel = i % 2 == 0 ? whole[i / 2] >> 4 : whole[i / 2] & 15;
+            CHECK(pixel != 0, "view %d: the background shows through at (%d, %d)", round,
+                  i % CRACK_WIDTH, i / CRACK_WIDTH);
+        }
+    }
+    print_message("%d pixels in 400 views lie on the ground, and show it\n", hit);
+    assert_true(hit > 400000);
+}
+
+/* --- Bounds ----------------------------------------------------------------------------------- */
+
+static void leaves_keep_to_their_bound(void **state)
+{
+    (void)state;
+    rng_t rng = {75};
+    clock_t slowest = 0;
+    for (int round = 0; round < 300; round++) {
+        yb_view_t view;
+        const yb_screen_t *screen = random_scene(&rng, round, &view);
+        view.walls = false;
+        view.edge_q4 = (uint16_t)(round % 4 == 0 ? 1 : view.edge_q4);
+        view.max_leaves = (uint32_t)rng_range(&rng, 511, 4000);
+        clock_t start = clock();
+        yb_frame_begin(&frame, &map, &view, screen);
+        draw(whole, 0, screen->height);
+        clock_t took = clock() - start;
+        slowest = took > slowest ? took : slowest;
+        CHECK(frame.stats.refined <= view.max_leaves, "view %d: %d leaves, not %d", round,
+              (int)frame.stats.refined, (int)view.max_leaves);
+        assert_true(frame.stats.drawn <= frame.stats.refined);
+        /* The same in bands, and nothing but the ground where the plain drawing has it. */
+        for (int y = 0; y < screen->height; y += 8)
+            draw(again, y, screen->height - y < 8 ? screen->height - y : 8);
+        assert_memory_equal(whole, again, yb_screen_pitch(screen) * screen->height);
+        yb_band_t band = {0, screen->height, depth, again, yb_screen_pitch(screen)};
+        plain_frame(&frame, &band);
+        assert_memory_equal(whole, again, yb_screen_pitch(screen) * screen->height);
+    }
+    print_message("the slowest bounded frame took %.1f ms\n",
+                  1000.0 * (double)slowest / CLOCKS_PER_SEC);
+}
+
+/* Views of the gallery's kind: gentle maps of some hundred metres' relief, seen from outside and on
+ * foot, have levels enough.
+ */
+static void sane_views_have_levels_enough(void **state)
+{
+    (void)state;
+    rng_t rng = {76};
+    uint32_t most = 0;
+    for (int round = 0; round < 600; round++) {
+        yb_view_t view;
+        if (round % 8 == 0) {
+            plan_t plan;
+            random_plan(&plan, &rng);
+            plan.gain = plan.gain > 16 ? 16 : plan.gain;
+            plan.unit = plan.unit > plan.cell / 4 ? plan.cell / 4 : plan.unit;
+            load_plan(&plan);
+        }
+        yb_view_init(&view, &map);
+        uint16_t azimuth = (uint16_t)rng_range(&rng, 0, 65535);
+        uint16_t elevation = (uint16_t)rng_range(&rng, 500, 16384);
+        yb_view_orbit(&view, &map, azimuth, elevation, (uint16_t)rng_range(&rng, 150, 600));
+        if (round % 3 == 0) { /* on foot, two metres and more above the ground */
+            view.eye_q8[0] = rng_range(&rng, 0, map.east_q8);
+            view.eye_q8[1] = rng_range(&rng, 0, map.north_q8);
+            view.eye_q8[2] =
+                200 + yb_map_height(&map, (uint16_t)view.eye_q8[0], (uint16_t)view.eye_q8[1]);
+            view.look_q8[2] = view.eye_q8[2] - 1000;
+        }
+        const yb_screen_t screen = {WIDTH, HEIGHT, YB_RGB565};
+        yb_frame_begin(&frame, &map, &view, &screen);
+        draw(whole, 0, HEIGHT);
+        CHECK(frame.stats.depth_limited == 0, "view %d: %d triangles want more levels", round,
+              (int)frame.stats.depth_limited);
+        most = frame.stats.refined > most ? frame.stats.refined : most;
+    }
+    print_message("up to %d leaves at 320x240\n", (int)most);
+}
+
+static void water_hides_what_is_under_it(void **state)
+{
+    (void)state;
+    plan_t plan;
+    plan_init(&plan, 255, 255);
+    const plan_point_t top = {128, 128};
+    assert_true(plan_try(&plan, &top, 1, 60));
+    load_plan(&plan);
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    const yb_screen_t screen = {WIDTH, HEIGHT, YB_RGB565};
+    view.walls = false;
+    view.water_q8 = 200 * 256;
+    yb_frame_begin(&frame, &map, &view, &screen);
+    draw(whole, 0, HEIGHT);
+    /* All is water: one colour and the sky's. */
+    uint16_t sky = (uint16_t)(whole[0] << 8 | whole[1]);
+    uint16_t water = sky;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        uint16_t pixel = (uint16_t)(whole[2 * i] << 8 | whole[2 * i + 1]);
+        if (pixel != sky && water == sky)
+            water = pixel;
+        assert_true(pixel == sky || pixel == water);
+    }
+    assert_int_not_equal(water, sky);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_bands_give_the_same_picture),
+        cmocka_unit_test(a_band_leaves_the_rest_alone),
+        cmocka_unit_test(culling_changes_no_pixel),
+        cmocka_unit_test(there_are_no_cracks),
+        cmocka_unit_test(leaves_keep_to_their_bound),
+        cmocka_unit_test(sane_views_have_levels_enough),
+        cmocka_unit_test(water_hides_what_is_under_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
