@@ -99,7 +99,9 @@ static int32_t plane_height(const yb_vertex_t *const p[3], int32_t x, int32_t y)
     int64_t a = side(p[1], p[2], x, y);
     int64_t b = side(p[2], p[0], x, y);
     int64_t c = side(p[0], p[1], x, y);
-    int64_t whole = a + b + c;
+    int64_t whole = a + b + c; /* no triangle of a map is flat in plan: above 0 */
+    if (whole <= 0)
+        return p[0]->z_q8;
     int64_t sum = a * p[0]->z_q8 + b * p[1]->z_q8 + c * p[2]->z_q8;
     /* Rounded down, for heights below zero too. */
     return (int32_t)(sum >= 0 ? sum / whole : -((whole - 1 - sum) / whole));
