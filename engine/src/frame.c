@@ -59,5 +59,5 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
             refine_draw(frame, &view, &raster, t);
     }
     if (frame->view.walls)
-        walls_draw(frame, &raster);
+        walls_draw(frame, &view, &raster);
 }

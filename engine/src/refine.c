@@ -76,10 +76,7 @@ static int shortest_split(const yb_frame_t *frame, int32_t depth)
     return relief_class(fix_min(length, 65535), 0);
 }
 
-/* Height that a point of the triangle may gain or lose until it is drawn: by refinement, and by the
- * water over it.
- */
-static int32_t stray_of(const yb_frame_t *frame, const yb_point_t *const p[3])
+int32_t refine_stray(const yb_frame_t *frame, const yb_point_t *const p[3])
 {
     relief_bound_t bound;
     relief_bound(frame->map, &p[0]->at, &p[1]->at, &p[2]->at, &bound);
@@ -92,31 +89,35 @@ static int32_t stray_of(const yb_frame_t *frame, const yb_point_t *const p[3])
     return lowest - reach < water ? fix_max(reach, water - lowest) : reach;
 }
 
-/* Tests what a triangle can become against those planes of *planes (a bit each) that it may cross.
- * True: nothing of it is inside. Else the bits of planes that it is wholly inside of are cleared;
- * its children need not look at them.
- */
-static bool outside(const yb_frame_t *frame, const refine_view_t *view,
-                    const yb_point_t *const p[3], uint8_t *planes)
+bool refine_misses(const refine_view_t *view, const yb_point_t *const *p, int count, int32_t stray,
+                   uint8_t *planes)
 {
-    if (*planes == 0)
-        return false;
-    int32_t stray = stray_of(frame, p);
     for (int i = 0; i < REFINE_PLANES; i++) {
         if ((*planes & 1 << i) == 0)
             continue;
         const refine_plane_t *plane = &view->plane[i];
         /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
         int32_t margin = (((stray >> 4) + 1) * plane->lift_q9 >> 5) + 34;
-        int32_t a = plane_value(plane, p[0]);
-        int32_t b = plane_value(plane, p[1]);
-        int32_t c = plane_value(plane, p[2]);
-        if (fix_max(a, fix_max(b, c)) < -margin)
+        int32_t least = INT32_MAX;
+        int32_t most = INT32_MIN;
+        for (int k = 0; k < count; k++) {
+            int32_t value = plane_value(plane, p[k]);
+            least = fix_min(least, value);
+            most = fix_max(most, value);
+        }
+        if (most < -margin)
             return true;
-        if (fix_min(a, fix_min(b, c)) > margin)
+        if (least > margin)
             *planes &= (uint8_t) ~(1 << i);
     }
     return false;
+}
+
+/* Does nothing of what a triangle can become lie inside these planes? */
+static bool outside(const yb_frame_t *frame, const refine_view_t *view,
+                    const yb_point_t *const p[3], uint8_t *planes)
+{
+    return *planes != 0 && refine_misses(view, p, 3, refine_stray(frame, p), planes);
 }
 
 /* A slope of the picture's pyramid, in 1/256, for a line `off` sixteenths of a pixel from the
@@ -160,7 +161,7 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, uint16_t triangle
         first = 1 << YB_ROW_SHIFT;
     } else {
         /* All it can become lies in the prism of its corners moved up and down. */
-        int32_t stray = stray_of(frame, p);
+        int32_t stray = refine_stray(frame, p);
         int32_t top = INT32_MAX;
         int32_t bottom = INT32_MIN;
         bool known = true;

@@ -26,6 +26,18 @@ typedef struct {
 /* The pyramid of the rows from first_row up to end_row. */
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view);
 
+/* Height that a point of a triangle (of an edge: name one end twice) may gain or lose until it is
+ * drawn: by refinement, and by the water over it.
+ */
+int32_t refine_stray(const yb_frame_t *frame, const yb_point_t *const p[3]);
+
+/* Tests some points, and what lies between them, against those planes of *planes (a bit each) that
+ * they may cross, when each may stray so far in height. True: nothing of it is inside. Else the
+ * bits of planes that it is wholly inside of are cleared; parts of it need not look at them.
+ */
+bool refine_misses(const refine_view_t *view, const yb_point_t *const *p, int count, int32_t stray,
+                   uint8_t *planes);
+
 /* Is the edge ab to be split in this frame? A function of the edge alone. */
 bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b);
 
@@ -46,6 +58,6 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
                  uint16_t triangle);
 
 /* Draws the walls below the frame. */
-void walls_draw(yb_frame_t *frame, const raster_t *raster);
+void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
 
 #endif

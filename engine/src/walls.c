@@ -43,30 +43,45 @@ static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point
     draw_half(frame, raster, lower, pixel);
 }
 
-/* Refines one edge from a to b, left to right: level[i].middle[0] is the point where the part in
- * hand ends, level[i].child how often it has been halved.
+/* Is the wall below the edge ab out of sight, however the edge is refined? */
+static bool hidden(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
+                   const yb_point_t *b)
+{
+    yb_point_t a_foot;
+    yb_point_t b_foot;
+    camera_drop(frame, a, frame->base_q8, &a_foot);
+    camera_drop(frame, b, frame->base_q8, &b_foot);
+    const yb_point_t *const edge[3] = {a, b, b};
+    const yb_point_t *const wall[4] = {a, b, &a_foot, &b_foot};
+    uint8_t planes = REFINE_ALL_PLANES;
+    return refine_misses(view, wall, 4, refine_stray(frame, edge), &planes);
+}
+
+/* Refines one edge from a to b, left to right: to[depth] is the point where the part in hand ends.
  */
-static void draw_edge(yb_frame_t *frame, const raster_t *raster)
+static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
     const yb_point_t *to[YB_MAX_LEVELS + 1];
     int depth = 0;
     to[0] = &frame->root[1];
     yb_point_t from = frame->root[0];
     for (;;) {
-        if (depth < YB_MAX_LEVELS && refine_splits(frame, &from, to[depth])) {
+        bool split = depth < YB_MAX_LEVELS && refine_splits(frame, &from, to[depth]);
+        if (split && !hidden(frame, view, &from, to[depth])) {
             yb_point_t *middle = &frame->level[depth].middle[0];
             refine_middle(frame, &from, to[depth], middle);
             to[++depth] = middle;
             continue;
         }
-        draw_piece(frame, raster, &from, to[depth]);
+        if (!split)
+            draw_piece(frame, raster, &from, to[depth]);
         if (depth == 0)
             return;
         from = *to[depth--];
     }
 }
 
-void walls_draw(yb_frame_t *frame, const raster_t *raster)
+void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
     const yb_map_t *map = frame->map;
     for (int t = 0; t < map->triangle_count; t++) {
@@ -77,7 +92,7 @@ void walls_draw(yb_frame_t *frame, const raster_t *raster)
                 continue;
             refine_root(frame, a, &frame->root[0]);
             refine_root(frame, b, &frame->root[1]);
-            draw_edge(frame, raster);
+            draw_edge(frame, view, raster);
         }
     }
 }

@@ -98,8 +98,9 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
     drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height}};
     raster_clear(&drawing.raster, shade_background(frame));
     (void)plain_leaves(frame, draw_leaf, &drawing);
+    static const refine_view_t everywhere; /* planes of zeros: nothing is outside */
     if (frame->view.walls)
-        walls_draw(frame, &drawing.raster);
+        walls_draw(frame, &everywhere, &drawing.raster);
 }
 
 /* --- Views ------------------------------------------------------------------------------------ */
