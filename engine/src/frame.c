@@ -6,20 +6,25 @@
 #include "refine.h"
 #include "shade.h"
 
+static bool on_screen(const yb_frame_t *frame, uint16_t triangle)
+{
+    return frame->first_row[triangle] <= frame->last_row[triangle];
+}
+
 /* Raises the threshold of refinement until the frame keeps to its bound. The count depends on the
  * view alone, so every band comes to the same threshold.
  */
 static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
-    while (frame->view.max_leaves > 0 && frame->split_q4 > 16) {
+    while (frame->view.max_leaves > 0 && frame->split_q4 > 0) {
         frame->stats.refined = 0;
         for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
-            if (frame->first_row[t] <= frame->last_row[t])
+            if (on_screen(frame, t))
                 refine_draw(frame, whole, NULL, t);
         }
         if (frame->stats.refined <= frame->view.max_leaves)
             break;
-        frame->split_q4 = fix_max(frame->split_q4 * 3 / 4, 16);
+        frame->split_q4 = frame->split_q4 * 3 / 4; /* in the end 0: no edge is split */
     }
     memset(&frame->stats, 0, sizeof frame->stats);
 }
@@ -54,7 +59,8 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     refine_see(frame, raster.first_row, raster.end_row, &view);
     raster_clear(&raster, shade_background(frame));
     for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
-        if (frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
+        if (on_screen(frame, t) &&
+            frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
             frame->last_row[t] >= raster.first_row >> YB_ROW_SHIFT)
             refine_draw(frame, &view, &raster, t);
     }

@@ -72,7 +72,7 @@ static int32_t plane_value(const refine_plane_t *plane, const yb_point_t *p)
 static int shortest_split(const yb_frame_t *frame, int32_t depth)
 {
     depth = fix_max(depth, frame->near_q8);
-    int32_t length = (depth >> 6) * 14 / frame->split_q4 << 6;
+    int32_t length = (depth >> 6) * 14 / fix_max(frame->split_q4, 1) << 6;
     return relief_class(fix_min(length, 65535), 0);
 }
 

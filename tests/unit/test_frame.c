@@ -129,14 +129,18 @@ static void culling_changes_no_pixel(void **state)
 
 /* --- Cracks ----------------------------------------------------------------------------------- */
 
+/* Rays from the eye through places of the screen, and which of them met the front of a leaf. */
 enum {
     CRACK_WIDTH = 128,
     CRACK_HEIGHT = 64,
-    AROUND = 9
+    CLOSE = 33
 };
 
-/* Rays through the centres of pixels and eight places round each, and which of them met a leaf. */
-static uint16_t met[CRACK_WIDTH * CRACK_HEIGHT];
+typedef struct {
+    double left, top, pitch; /* the first place, and from one to the next, in pixels */
+    int across, down;
+    bool *met;
+} rays_t;
 
 static double determinant(const double a[3], const double b[3], const double c[3])
 {
@@ -144,80 +148,129 @@ static double determinant(const double a[3], const double b[3], const double c[3
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
+/* Where on the screen the part of a triangle beyond the near distance lies. */
+typedef struct {
+    double left, right, top, bottom;
+} box_t;
+
+static void widen(box_t *box, const double p[3])
+{
+    double x = CRACK_WIDTH / 2 + p[0] / p[2] * frame.focal_q4 / 16;
+    double y = CRACK_HEIGHT / 2 - p[1] / p[2] * frame.focal_q4 / 16;
+    box->left = fmin(box->left, x);
+    box->right = fmax(box->right, x);
+    box->top = fmin(box->top, y);
+    box->bottom = fmax(box->bottom, y);
+}
+
+static void find_box(double p[3][3], box_t *box)
+{
+    *box = (box_t){1e9, -1e9, 1e9, -1e9};
+    for (int i = 0; i < 3; i++) {
+        const double *a = p[i];
+        const double *b = p[(i + 1) % 3];
+        if (a[2] >= frame.near_q8)
+            widen(box, a);
+        if ((a[2] >= frame.near_q8) != (b[2] >= frame.near_q8)) {
+            double part = (frame.near_q8 - a[2]) / (b[2] - a[2]);
+            double cut[3];
+            for (int k = 0; k < 3; k++)
+                cut[k] = a[k] + part * (b[k] - a[k]);
+            widen(box, cut);
+        }
+    }
+}
+
 /* Marks the rays that meet the front of a leaf beyond the near distance. */
 static void cast(void *context, const yb_point_t *const corner[3])
 {
-    (void)context;
+    const rays_t *rays = context;
     double p[3][3];
-    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-    bool ahead = true;
     for (int i = 0; i < 3; i++) {
         camera_point_t place;
         camera_place(&frame, corner[i], &place);
         p[i][0] = place.right_q8;
         p[i][1] = place.up_q8;
         p[i][2] = place.depth_q8;
-        ahead = ahead && place.depth_q8 >= frame.near_q8;
-        double x = CRACK_WIDTH / 2 + p[i][0] / p[i][2] * frame.focal_q4 / 16;
-        double y = CRACK_HEIGHT / 2 - p[i][1] / p[i][2] * frame.focal_q4 / 16;
-        left = fmin(left, x);
-        right = fmax(right, x);
-        top = fmin(top, y);
-        bottom = fmax(bottom, y);
     }
     double volume = determinant(p[0], p[1], p[2]);
-    if (volume >= 0)
-        return; /* right, up, depth are left-handed: the front is negative */
-    int x0 = ahead ? (int)fmax(left - 1, 0) : 0;
-    int x1 = ahead ? (int)fmin(right + 1, CRACK_WIDTH - 1) : CRACK_WIDTH - 1;
-    int y0 = ahead ? (int)fmax(top - 1, 0) : 0;
-    int y1 = ahead ? (int)fmin(bottom + 1, CRACK_HEIGHT - 1) : CRACK_HEIGHT - 1;
+    if (volume <= 0)
+        return; /* right, up and depth are left-handed: the front is positive */
+    box_t box;
+    find_box(p, &box);
+    int x0 = (int)fmax((box.left - rays->left) / rays->pitch - 1, 0);
+    int x1 = (int)fmin((box.right - rays->left) / rays->pitch + 1, rays->across - 1);
+    int y0 = (int)fmax((box.top - rays->top) / rays->pitch - 1, 0);
+    int y1 = (int)fmin((box.bottom - rays->top) / rays->pitch + 1, rays->down - 1);
     for (int y = y0; y <= y1; y++) {
         for (int x = x0; x <= x1; x++) {
-            for (int k = 0; k < AROUND; k++) {
-                double ray[3] = {(x + 0.5 + (k % 3 - 1) * 0.25 - CRACK_WIDTH / 2) * 16,
-                                 (CRACK_HEIGHT / 2 - y - 0.5 + (k / 3 - 1) * 0.25) * 16,
-                                 frame.focal_q4};
-                double a = determinant(ray, p[1], p[2]);
-                double b = determinant(p[0], ray, p[2]);
-                double c = determinant(p[0], p[1], ray);
-                if (a > 0 || b > 0 || c > 0)
-                    continue;
-                double far = volume / (a + b + c) * frame.focal_q4;
-                if (far >= frame.near_q8 * 1.02 + 2)
-                    met[y * CRACK_WIDTH + x] |= (uint16_t)(1 << k);
-            }
+            double ray[3] = {(rays->left + x * rays->pitch - CRACK_WIDTH / 2) * 16,
+                             (CRACK_HEIGHT / 2 - rays->top - y * rays->pitch) * 16, frame.focal_q4};
+            double a = determinant(ray, p[1], p[2]);
+            double b = determinant(p[0], ray, p[2]);
+            double c = determinant(p[0], p[1], ray);
+            if (a < 0 || b < 0 || c < 0)
+                continue;
+            double far = volume / (a + b + c) * frame.focal_q4;
+            if (far >= frame.near_q8 * 1.02 + 2)
+                rays->met[y * rays->across + x] = true;
         }
     }
+}
+
+/* Does ground lie all round the centre of pixel i without a gap? Farther round than corners are
+ * moved by rounding: to 1/16 pixel, and to one unit where they are cut at the near distance.
+ * Between the outlines of two ridges the background rightly shows through.
+ */
+static bool all_ground(int i)
+{
+    static bool met[CLOSE * CLOSE];
+    memset(met, 0, sizeof met);
+    double radius = 0.15 + frame.focal_q4 / 16.0 / frame.near_q8;
+    rays_t rays = {.left = i % CRACK_WIDTH + 0.5 - radius,
+                   .top = i / CRACK_WIDTH + 0.5 - radius,
+                   .pitch = 2 * radius / (CLOSE - 1),
+                   .across = CLOSE,
+                   .down = CLOSE,
+                   .met = met};
+    (void)plain_leaves(&frame, cast, &rays);
+    for (int k = 0; k < CLOSE * CLOSE; k++) {
+        if (!met[k])
+            return false;
+    }
+    return true;
 }
 
 static void there_are_no_cracks(void **state)
 {
     (void)state;
     rng_t rng = {74};
-    int hit = 0;
-    for (int round = 0; round < 400; round++) {
+    int hits = 0;
+    int gaps = 0;
+    for (int round = 0; round < 500; round++) {
         yb_view_t view;
         (void)random_scene(&rng, round, &view);
         view.walls = false;
-        if (view.edge_q4 < 64)
-            view.edge_q4 = 64;
         const yb_screen_t screen = {CRACK_WIDTH, CRACK_HEIGHT, YB_GREY4};
         yb_frame_begin(&frame, &map, &view, &screen);
         draw(whole, 0, screen.height);
+        static bool met[CRACK_WIDTH * CRACK_HEIGHT];
         memset(met, 0, sizeof met);
-        (void)plain_leaves(&frame, cast, NULL);
+        rays_t rays = {0.5, 0.5, 1, CRACK_WIDTH, CRACK_HEIGHT, met};
+        (void)plain_leaves(&frame, cast, &rays);
         for (int i = 0; i < CRACK_WIDTH * CRACK_HEIGHT; i++) {
-            if (met[i] != (1 << AROUND) - 1)
-                continue;
-            hit++;
             int pixel = i % 2 == 0 ? whole[i / 2] >> 4 : whole[i / 2] & 15;
-            CHECK(pixel != 0, "view %d: the background shows through at (%d, %d)", round,
+            hits += met[i];
+            if (!met[i] || pixel != 0)
+                continue;
+            gaps++;
+            CHECK(!all_ground(i), "view %d: the background shows through at (%d, %d)", round,
                   i % CRACK_WIDTH, i / CRACK_WIDTH);
         }
     }
-    print_message("%d pixels in 400 views lie on the ground, and show it\n", hit);
-    assert_true(hit > 400000);
+    print_message("%d pixels lie on the ground and show it, but for %d at its outline\n", hits,
+                  gaps);
+    assert_true(hits > 400000 && gaps < hits / 500);
 }
 
 /* --- Bounds ----------------------------------------------------------------------------------- */
@@ -245,6 +298,8 @@ static void leaves_keep_to_their_bound(void **state)
         for (int y = 0; y < screen->height; y += 8)
             draw(again, y, screen->height - y < 8 ? screen->height - y : 8);
         assert_memory_equal(whole, again, yb_screen_pitch(screen) * screen->height);
+        if (view.edge_q4 == 1)
+            continue; /* what is out of sight would be refined to the lattice */
         yb_band_t band = {0, screen->height, depth, again, yb_screen_pitch(screen)};
         plain_frame(&frame, &band);
         assert_memory_equal(whole, again, yb_screen_pitch(screen) * screen->height);
@@ -296,14 +351,15 @@ static void water_hides_what_is_under_it(void **state)
     (void)state;
     plan_t plan;
     plan_init(&plan, 255, 255);
+    plan.seed = 5;
     const plan_point_t top = {128, 128};
-    assert_true(plan_try(&plan, &top, 1, 60));
+    assert_true(plan_try(&plan, &top, 1, 10));
     load_plan(&plan);
     yb_view_t view;
     yb_view_init(&view, &map);
     const yb_screen_t screen = {WIDTH, HEIGHT, YB_RGB565};
     view.walls = false;
-    view.water_q8 = 200 * 256;
+    view.water_q8 = 30 * 256;
     yb_frame_begin(&frame, &map, &view, &screen);
     draw(whole, 0, HEIGHT);
     /* All is water: one colour and the sky's. */

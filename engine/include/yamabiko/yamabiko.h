@@ -242,7 +242,8 @@ typedef struct {
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool walls;             /* draw the block's sides, down to its base */
     int32_t water_q8;       /* water level, or YB_NO_WATER */
-    uint32_t max_leaves;    /* at most so many triangles refined in a frame; 0: no bound */
+    uint32_t max_leaves;    /* at most so many leaves of the ground in a frame, or as many as the
+                             * mesh has triangles; 0: no bound */
 } yb_view_t;
 
 /* The standard: 50 degrees across, true scale, edges up to 7 pixels, sun in the north-west 30
