@@ -59,8 +59,7 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     refine_see(frame, raster.first_row, raster.end_row, &view);
     raster_clear(&raster, shade_background(frame));
     for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
-        if (on_screen(frame, t) &&
-            frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
+        if (on_screen(frame, t) && frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
             frame->last_row[t] >= raster.first_row >> YB_ROW_SHIFT)
             refine_draw(frame, &view, &raster, t);
     }
