@@ -1,0 +1,239 @@
+/* Golden vectors: the mesh and some frames of a few codes, as hashes.
+ *
+ *     golden CODES EXPECTED [--pictures FOLDER] [--update]
+ *
+ * CODES is a folder of *.hex named by the lines of EXPECTED: "code what hash". Prints every line
+ * that differs, as it should be; --update writes them all to EXPECTED; --pictures leaves PPMs to
+ * look at. Exits 1 if any differed.
+ */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <yamabiko/yamabiko.h>
+
+#include "fnv.h"
+#include "mesh_check.h"
+
+enum {
+    WIDTH = 320,
+    HEIGHT = 240,
+    MOST_LINES = 200
+};
+
+static yb_map_t map;
+static yb_load_t load;
+static yb_frame_t frame;
+static uint16_t depth[WIDTH * HEIGHT];
+static uint8_t pixels[WIDTH * HEIGHT * 2];
+static const char *pictures;
+
+static const char *const codes[] = {"spec-1-5", "cone", "twin-peaks", "coast", "pits"};
+
+static bool load_code(const char *folder, const char *name)
+{
+    char path[1024];
+    (void)snprintf(path, sizeof path, "%s/%s.hex", folder, name);
+    FILE *file = fopen(path, "r");
+    if (file == NULL) {
+        perror(path);
+        return false;
+    }
+    uint8_t code[YB_MAX_CODE_BYTES];
+    size_t count = 0;
+    unsigned byte;
+    while (count < sizeof code && fscanf(file, "%2x", &byte) == 1)
+        code[count++] = (uint8_t)byte;
+    (void)fclose(file);
+    yb_status_t status = yb_map_load(&map, &load, code, count);
+    if (status != YB_OK)
+        (void)fprintf(stderr, "%s: %s\n", path, yb_status_text(status));
+    return status == YB_OK;
+}
+
+/* Heights of the reference surface on a grid, with and without detail. */
+static uint64_t surface_hash(void)
+{
+    uint64_t hash = FNV_START;
+    for (int detail = 0; detail < 2; detail++) {
+        map.detail = detail == 1;
+        for (int y = 0; y <= 32; y++) {
+            for (int x = 0; x <= 32; x++)
+                hash = fnv_number(hash, yb_map_height(&map, (uint16_t)(map.east_q8 * x / 32),
+                                                      (uint16_t)(map.north_q8 * y / 32)));
+        }
+    }
+    return hash;
+}
+
+static void write_picture(const char *name, const char *what)
+{
+    char path[1024];
+    (void)snprintf(path, sizeof path, "%s/%s-%s.ppm", pictures, name, what);
+    FILE *file = fopen(path, "wb");
+    if (file == NULL)
+        return;
+    const yb_screen_t *screen = &frame.screen;
+    (void)fprintf(file, "P6\n%d %d\n255\n", screen->width, screen->height);
+    for (size_t i = 0; i < (size_t)screen->width * screen->height; i++) {
+        int red, green, blue;
+        if (screen->format == YB_GREY4) {
+            red = green = blue = (i % 2 == 0 ? pixels[i / 2] >> 4 : pixels[i / 2] & 15) * 17;
+        } else {
+            int pixel = pixels[2 * i] << 8 | pixels[2 * i + 1];
+            red = (pixel >> 11) * 255 / 31;
+            green = (pixel >> 5 & 63) * 255 / 63;
+            blue = (pixel & 31) * 255 / 31;
+        }
+        const uint8_t rgb[3] = {(uint8_t)red, (uint8_t)green, (uint8_t)blue};
+        (void)fwrite(rgb, 1, 3, file);
+    }
+    (void)fclose(file);
+}
+
+/* --- Views ------------------------------------------------------------------------------------ */
+
+static void from_north_west(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(135), YB_DEGREES(30), 307);
+}
+
+static void from_far_above(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(200), YB_DEGREES(75), 420);
+    view->walls = false;
+}
+
+static void straight_down(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(30), YB_DEGREES(90), 350);
+}
+
+static void flooded(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(300), YB_DEGREES(25), 280);
+    view->water_q8 = map.low_q8 + (map.high_q8 - map.low_q8) * 2 / 5;
+    view->exaggerate_q8 = 512;
+}
+
+static void on_foot(yb_view_t *view)
+{
+    view->eye_q8[0] = map.east_q8 / 5;
+    view->eye_q8[1] = map.north_q8 / 4;
+    view->eye_q8[2] =
+        yb_map_height(&map, (uint16_t)view->eye_q8[0], (uint16_t)view->eye_q8[1]) + 600;
+    view->look_q8[0] = map.east_q8 * 3 / 5;
+    view->look_q8[1] = map.north_q8 / 2;
+    view->look_q8[2] = view->eye_q8[2];
+    yb_view_sun(view, YB_DEGREES(200), YB_DEGREES(40));
+}
+
+static const struct {
+    const char *name;
+    void (*set)(yb_view_t *view);
+} views[] = {
+    {"orbit", from_north_west}, {"above", from_far_above}, {"down", straight_down},
+    {"flood", flooded},         {"foot", on_foot},
+};
+
+static uint64_t frame_hash(size_t which, const yb_screen_t *screen)
+{
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    views[which].set(&view);
+    yb_frame_begin(&frame, &map, &view, screen);
+    size_t pitch = yb_screen_pitch(screen);
+    yb_band_t band = {0, screen->height, depth, pixels, pitch};
+    yb_frame_band(&frame, &band);
+    return fnv_bytes(FNV_START, pixels, pitch * screen->height);
+}
+
+/* --- Lines ------------------------------------------------------------------------------------ */
+
+typedef struct {
+    char text[120];
+} line_t;
+
+typedef struct {
+    line_t line[MOST_LINES];
+    int count;
+} lines_t;
+
+static void add_line(lines_t *lines, const char *code, const char *what, uint64_t hash)
+{
+    if (lines->count < MOST_LINES)
+        (void)snprintf(lines->line[lines->count++].text, sizeof lines->line->text,
+                       "%s %s %016" PRIx64, code, what, hash);
+}
+
+static bool find_lines(const char *folder, lines_t *lines)
+{
+    static const yb_screen_t screens[2] = {{128, 64, YB_GREY4}, {WIDTH, HEIGHT, YB_RGB565}};
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
+        if (!load_code(folder, codes[i]))
+            return false;
+        add_line(lines, codes[i], "mesh", mesh_hash(&map));
+        add_line(lines, codes[i], "surface", surface_hash());
+        for (size_t k = 0; k < 2 * sizeof views / sizeof *views; k++) {
+            char what[40];
+            const yb_screen_t *screen = &screens[k % 2];
+            (void)snprintf(what, sizeof what, "%s-%dx%d", views[k / 2].name, screen->width,
+                           screen->height);
+            add_line(lines, codes[i], what, frame_hash(k / 2, screen));
+            if (pictures != NULL)
+                write_picture(codes[i], what);
+        }
+    }
+    return true;
+}
+
+static int compare(const char *path, const lines_t *lines)
+{
+    FILE *file = fopen(path, "r");
+    int wrong = 0;
+    char text[120];
+    for (int i = 0; i < lines->count; i++) {
+        bool have = file != NULL && fgets(text, sizeof text, file) != NULL;
+        text[have ? strcspn(text, "\n") : 0] = '\0';
+        if (strcmp(text, lines->line[i].text) != 0) {
+            printf("expected: %s\nfound:    %s\n", text, lines->line[i].text);
+            wrong++;
+        }
+    }
+    if (file != NULL)
+        (void)fclose(file);
+    printf("%d of %d golden lines differ\n", wrong, lines->count);
+    return wrong == 0 ? 0 : 1;
+}
+
+static int update(const char *path, const lines_t *lines)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL) {
+        perror(path);
+        return 1;
+    }
+    for (int i = 0; i < lines->count; i++)
+        (void)fprintf(file, "%s\n", lines->line[i].text);
+    return fclose(file) == 0 ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    bool write = false;
+    if (argc < 3) {
+        (void)fprintf(stderr, "usage: golden CODES EXPECTED [--pictures FOLDER] [--update]\n");
+        return 2;
+    }
+    for (int i = 3; i < argc; i++) {
+        if (strcmp(argv[i], "--update") == 0)
+            write = true;
+        else if (strcmp(argv[i], "--pictures") == 0 && i + 1 < argc)
+            pictures = argv[++i];
+    }
+    static lines_t lines;
+    if (!find_lines(argv[1], &lines))
+        return 1;
+    return write ? update(argv[2], &lines) : compare(argv[2], &lines);
+}
