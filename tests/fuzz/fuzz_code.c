@@ -1,83 +1,98 @@
-/* libFuzzer target for the decoder and what comes behind it.
+/* Fuzzing of the decoder and of what is drawn from its maps.
  *
- * The last byte of an input is how large the pieces are in which the rest is fed; the check byte is
- * mended, or hardly an input would get past it. What loads is drawn and asked for heights. Built
- * without libFuzzer (YB_FUZZ_REPLAY) it runs the files it is given once: the corpus as a test.
+ * Input: one byte that says in which pieces the code is fed, one that chooses the view, the code.
+ * Its last byte is replaced by the right check, or nothing would ever come past it. Built as a fuzz
+ * target with libFuzzer, else with a main that runs the files it is given.
  */
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <yamabiko/yamabiko.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+#include "mesh_check.h"
+#include "plan.h"
+
+enum {
+    MOST = 1400,
+    WIDTH = 48,
+    HEIGHT = 32
+};
 
 static yb_map_t map;
 static yb_load_t load;
 static yb_frame_t frame;
 
-static uint8_t check_of(const uint8_t *bytes, size_t count)
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static yb_status_t feed(const uint8_t *code, size_t count, unsigned piece)
 {
-    unsigned crc = 0;
-    for (size_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int k = 0; k < 8; k++)
-            crc = (crc << 1 ^ ((crc & 0x80) != 0 ? 0x07 : 0)) & 0xff;
+    yb_status_t status = YB_MORE;
+    yb_map_begin(&map, &load);
+    for (size_t at = 0; at < count && status == YB_MORE; at += piece) {
+        size_t rest = count - at;
+        status = yb_map_feed(&map, &load, code + at, rest < piece ? rest : piece);
     }
-    return (uint8_t)crc;
+    if (yb_map_end(&map, &load) == YB_MORE)
+        abort();
+    return status;
 }
 
-static void draw(const uint8_t *code, size_t size)
+static void check_mesh(void)
 {
-    static uint16_t depth[64 * 16];
-    static uint8_t pixels[32 * 16];
-    const yb_screen_t screen = {.width = 64, .height = 32, .format = YB_GREY4};
+    plan_t bare;
+    plan_init(&bare, 255, 255);
+    if (mesh_check_tiling(&map, &bare) != NULL)
+        abort();
+}
+
+static void draw(uint8_t choice)
+{
+    static uint16_t depth[WIDTH * HEIGHT];
+    static uint8_t pixels[WIDTH * HEIGHT * 2];
+    static uint8_t again[WIDTH * HEIGHT * 2];
+    yb_screen_t screen = {WIDTH, HEIGHT, (choice & 1) != 0 ? YB_GREY4 : YB_RGB565};
     yb_view_t view;
     yb_view_init(&view, &map);
-    yb_view_orbit(&view, &map, (uint16_t)(code[size / 2] << 8), (uint16_t)(code[size / 3] << 6),
-                  (uint16_t)(40 + code[size / 4] * 2));
-    view.max_leaves = 1000;
-    view.water_q8 = code[size / 5] < 128 ? YB_NO_WATER : code[size / 5] * 64;
+    view.max_leaves = 2000;
+    yb_view_orbit(&view, &map, (uint16_t)(choice << 10), YB_DEGREES(35),
+                  (uint16_t)(80 + 4 * choice));
+    if ((choice & 2) != 0)
+        view.water_q8 = (map.low_q8 + map.high_q8) / 2;
+    if ((choice & 4) != 0) {
+        uint16_t x = (uint16_t)(map.east_q8 / 3);
+        uint16_t y = (uint16_t)(map.north_q8 / 5);
+        view.eye_q8[0] = x;
+        view.eye_q8[1] = y;
+        view.eye_q8[2] = yb_map_height(&map, x, y) + 300;
+    }
     yb_frame_begin(&frame, &map, &view, &screen);
-    yb_band_t band = {.rows = 16, .depth = depth, .pixels = pixels, .pitch = 32};
-    for (band.y = 0; band.y < 32; band.y = (uint16_t)(band.y + 16))
+    size_t pitch = yb_screen_pitch(&screen);
+    yb_band_t band = {0, HEIGHT, depth, pixels, pitch};
+    yb_frame_band(&frame, &band);
+    for (uint16_t y = 0; y < HEIGHT; y = (uint16_t)(y + 5)) {
+        band = (yb_band_t){y, 5, depth, again + y * pitch, pitch};
         yb_frame_band(&frame, &band);
-    (void)yb_map_height(&map, (uint16_t)(code[size / 6] << 8), (uint16_t)(code[size / 7] << 8));
+    }
+    if (memcmp(pixels, again, pitch * HEIGHT) != 0)
+        abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    uint8_t code[YB_MAX_CODE_BYTES + 8];
-    if (size < 3 || size > sizeof code)
+    uint8_t code[MOST];
+    if (size < 3)
         return 0;
-    size_t count = size - 1;
-    size_t piece = (size_t)data[count] + 1;
-    memcpy(code, data, count);
-    code[count - 1] = check_of(code, count - 1);
-    yb_map_begin(&map, &load);
-    yb_status_t status = YB_MORE;
-    for (size_t at = 0; at < count && status == YB_MORE; at += piece)
-        status = yb_map_feed(&map, &load, code + at, count - at < piece ? count - at : piece);
-    status = yb_map_end(&map, &load);
-    if (status == YB_OK)
-        draw(code, count);
+    size_t count = size - 2 < MOST ? size - 2 : MOST;
+    memcpy(code, data + 2, count);
+    plan_mend(code, count);
+    static yb_map_t first;
+    yb_status_t status = feed(code, count, data[0] % 40u + 1);
+    if (status != YB_OK)
+        return 0;
+    check_mesh();
+    first = map;
+    if (feed(code, count, MOST) != YB_OK || memcmp(&first, &map, sizeof map) != 0)
+        abort();
+    draw(data[1]);
     return 0;
 }
-
-#ifdef YB_FUZZ_REPLAY
-int main(int argc, char **argv)
-{
-    for (int i = 1; i < argc; i++) {
-        static uint8_t data[YB_MAX_CODE_BYTES + 8];
-        FILE *file = fopen(argv[i], "rb");
-        if (file == NULL) {
-            perror(argv[i]);
-            return 1;
-        }
-        size_t size = fread(data, 1, sizeof data, file);
-        fclose(file);
-        (void)LLVMFuzzerTestOneInput(data, size);
-    }
-    printf("%d inputs\n", argc - 1);
-    return argc > 1 ? 0 : 1;
-}
-#endif

@@ -1,9 +1,13 @@
-/* Meshes and frames by their hashes: one line each, to be held against golden.txt.
+/* Golden vectors: the mesh and some frames of the vectors here and of the gallery, as hashes.
  *
- *     golden [-p FOLDER] MAP.yb ...      -p: write each frame there as a picture (PPM), to look at
+ *     golden EXPECTED [--pictures FOLDER] [--update] CODE ...
  *
- * Plain C and the engine alone, so that any compiler can build it: compilers.py tries several.
+ * A CODE is a file, .hex (digits) or .yb (bytes). EXPECTED has lines "code what hash" in the order
+ * of the files. Prints every line that differs, as it should be; --update writes them all to
+ * EXPECTED;
+ * --pictures leaves PPMs to look at. Exits 1 if any differed.
  */
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,140 +15,233 @@
 #include <yamabiko/yamabiko.h>
 
 #include "fnv.h"
-#include "standard_views.h"
+#include "mesh_check.h"
+
+enum {
+    WIDTH = 320,
+    HEIGHT = 240,
+    MOST_LINES = 400
+};
 
 static yb_map_t map;
 static yb_load_t load;
 static yb_frame_t frame;
-static uint16_t depth[320 * 240];
-static uint8_t pixels[320 * 240 * 2];
+static uint16_t depth[WIDTH * HEIGHT];
+static uint8_t pixels[WIDTH * HEIGHT * 2];
+static const char *pictures;
 
-/* The name of a map: its file's, without folder and ending. */
+static bool load_code(const char *path)
+{
+    bool digits = strstr(path, ".hex") != NULL;
+    FILE *file = fopen(path, digits ? "r" : "rb");
+    if (file == NULL) {
+        perror(path);
+        return false;
+    }
+    uint8_t code[YB_MAX_CODE_BYTES];
+    size_t count = 0;
+    unsigned byte;
+    if (!digits)
+        count = fread(code, 1, sizeof code, file);
+    while (digits && count < sizeof code && fscanf(file, "%2x", &byte) == 1)
+        code[count++] = (uint8_t)byte;
+    (void)fclose(file);
+    yb_status_t status = yb_map_load(&map, &load, code, count);
+    if (status != YB_OK)
+        (void)fprintf(stderr, "%s: %s\n", path, yb_status_text(status));
+    return status == YB_OK;
+}
+
+/* A code's name: its file's, without folder and ending. */
 static void name_of(const char *path, char name[64])
 {
     const char *slash = strrchr(path, '/');
-    snprintf(name, 64, "%s", slash != NULL ? slash + 1 : path);
-    char *dot = strrchr(name, '.');
-    if (dot != NULL)
-        *dot = '\0';
+    (void)snprintf(name, 64, "%s", slash != NULL ? slash + 1 : path);
+    name[strcspn(name, ".")] = '\0';
 }
 
-/* Independent of the order of triangles, and of the corner that each begins with. */
-static uint64_t mesh_hash(void)
-{
-    uint64_t hash = FNV_START;
-    for (int i = 0; i < map.vertex_count; i++) {
-        const yb_vertex_t *v = &map.vertex[i];
-        const int64_t part[] = {v->x_q8, v->y_q8, v->z_q8, v->gx_q11, v->gy_q11};
-        for (int k = 0; k < 5; k++)
-            hash = fnv_number(hash, part[k]);
-    }
-    uint64_t sum = 0;
-    for (int t = 0; t < map.triangle_count; t++) {
-        const yb_index_t *c = map.triangle[t];
-        int least = c[0] < c[1] ? (c[0] < c[2] ? 0 : 2) : (c[1] < c[2] ? 1 : 2);
-        uint64_t one = FNV_START;
-        for (int k = 0; k < 3; k++)
-            one = fnv_number(one, c[(least + k) % 3]);
-        sum += one;
-    }
-    hash = fnv_number(hash, (int64_t)(sum >> 1));
-    for (int c = 0; c < YB_LENGTH_CLASSES; c++)
-        hash = fnv_number(hash, map.noise[c]);
-    return hash;
-}
-
+/* Heights of the reference surface on a grid, with and without detail. */
 static uint64_t surface_hash(void)
 {
     uint64_t hash = FNV_START;
-    for (int y = 0; y <= map.north_q8; y += 2048) {
-        for (int x = 0; x <= map.east_q8; x += 2048)
-            hash = fnv_number(hash, yb_map_height(&map, (uint16_t)x, (uint16_t)y));
+    for (int detail = 0; detail < 2; detail++) {
+        map.detail = detail == 1;
+        for (int y = 0; y <= 32; y++) {
+            for (int x = 0; x <= 32; x++)
+                hash = fnv_number(hash, yb_map_height(&map, (uint16_t)(map.east_q8 * x / 32),
+                                                      (uint16_t)(map.north_q8 * y / 32)));
+        }
     }
     return hash;
 }
 
-static void write_picture(const char *folder, const char *name, const char *view,
-                          const yb_screen_t *screen)
+static void write_picture(const char *name, const char *what)
 {
-    char path[400];
-    snprintf(path, sizeof path, "%s/%s-%s-%d.ppm", folder, name, view, screen->width);
+    char path[1024];
+    (void)snprintf(path, sizeof path, "%s/%s-%s.ppm", pictures, name, what);
     FILE *file = fopen(path, "wb");
     if (file == NULL)
         return;
-    fprintf(file, "P6 %d %d 255\n", screen->width, screen->height);
-    for (int i = 0; i < screen->width * screen->height; i++) {
-        if (screen->format == YB_RGB565) {
-            int pixel = pixels[2 * i] << 8 | pixels[2 * i + 1];
-            fputc((pixel >> 11) * 255 / 31, file);
-            fputc((pixel >> 5 & 63) * 255 / 63, file);
-            fputc((pixel & 31) * 255 / 31, file);
+    const yb_screen_t *screen = &frame.screen;
+    (void)fprintf(file, "P6\n%d %d\n255\n", screen->width, screen->height);
+    for (size_t i = 0; i < (size_t)screen->width * screen->height; i++) {
+        int red, green, blue;
+        if (screen->format == YB_GREY4) {
+            red = green = blue = (i % 2 == 0 ? pixels[i / 2] >> 4 : pixels[i / 2] & 15) * 17;
         } else {
-            int grey = (i % 2 == 0 ? pixels[i / 2] >> 4 : pixels[i / 2] & 15) * 17;
-            for (int k = 0; k < 3; k++)
-                fputc(grey, file);
+            int pixel = pixels[2 * i] << 8 | pixels[2 * i + 1];
+            red = (pixel >> 11) * 255 / 31;
+            green = (pixel >> 5 & 63) * 255 / 63;
+            blue = (pixel & 31) * 255 / 31;
         }
+        const uint8_t rgb[3] = {(uint8_t)red, (uint8_t)green, (uint8_t)blue};
+        (void)fwrite(rgb, 1, 3, file);
     }
-    fclose(file);
+    (void)fclose(file);
 }
 
-static void draw(const char *folder, const char *name, int which, const yb_screen_t *screen,
-                 int band_rows)
+/* --- Views ------------------------------------------------------------------------------------ */
+
+static void from_north_west(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(135), YB_DEGREES(30), 307);
+}
+
+static void from_far_above(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(200), YB_DEGREES(75), 420);
+    view->walls = false;
+}
+
+static void straight_down(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(30), YB_DEGREES(90), 350);
+}
+
+static void flooded(yb_view_t *view)
+{
+    yb_view_orbit(view, &map, YB_DEGREES(300), YB_DEGREES(25), 280);
+    view->water_q8 = map.low_q8 + (map.high_q8 - map.low_q8) * 2 / 5;
+    view->exaggerate_q8 = 512;
+}
+
+static void on_foot(yb_view_t *view)
+{
+    view->eye_q8[0] = map.east_q8 / 5;
+    view->eye_q8[1] = map.north_q8 / 4;
+    view->eye_q8[2] =
+        yb_map_height(&map, (uint16_t)view->eye_q8[0], (uint16_t)view->eye_q8[1]) + 600;
+    view->look_q8[0] = map.east_q8 * 3 / 5;
+    view->look_q8[1] = map.north_q8 / 2;
+    view->look_q8[2] = view->eye_q8[2];
+    yb_view_sun(view, YB_DEGREES(200), YB_DEGREES(40));
+}
+
+static const struct {
+    const char *name;
+    void (*set)(yb_view_t *view);
+} views[] = {
+    {"orbit", from_north_west}, {"above", from_far_above}, {"down", straight_down},
+    {"flood", flooded},         {"foot", on_foot},
+};
+
+static uint64_t frame_hash(size_t which, const yb_screen_t *screen)
 {
     yb_view_t view;
-    size_t pitch = yb_screen_pitch(screen);
     yb_view_init(&view, &map);
-    if (which % 3 == 2)
-        view.water_q8 = map.low_q8 + (map.high_q8 - map.low_q8) / 5;
-    yb_standard_view_set(&view, &map, (yb_standard_view_t)which);
+    views[which].set(&view);
     yb_frame_begin(&frame, &map, &view, screen);
-    for (int y = 0; y < screen->height; y += band_rows) {
-        const yb_band_t band = {.y = (uint16_t)y,
-                                .rows = (uint16_t)band_rows,
-                                .depth = depth,
-                                .pixels = pixels + (size_t)y * pitch,
-                                .pitch = pitch};
-        yb_frame_band(&frame, &band);
-    }
-    const char *view_name = yb_standard_view_name(which);
-    uint64_t hash = fnv_bytes(FNV_START, pixels, pitch * screen->height);
-    printf("frame %s %s %dx%d %016llx\n", name, view_name, screen->width, screen->height,
-           (unsigned long long)hash);
-    if (folder != NULL)
-        write_picture(folder, name, view_name, screen);
+    size_t pitch = yb_screen_pitch(screen);
+    yb_band_t band = {0, screen->height, depth, pixels, pitch};
+    yb_frame_band(&frame, &band);
+    return fnv_bytes(FNV_START, pixels, pitch * screen->height);
 }
 
-static int do_map(const char *folder, const char *path)
+/* --- Lines ------------------------------------------------------------------------------------ */
+
+typedef struct {
+    char text[160];
+} line_t;
+
+typedef struct {
+    line_t line[MOST_LINES];
+    int count;
+} lines_t;
+
+static void add_line(lines_t *lines, const char *code, const char *what, uint64_t hash)
 {
-    static uint8_t bytes[YB_MAX_CODE_BYTES + 1];
-    char name[64];
-    FILE *file = fopen(path, "rb");
-    size_t size = file != NULL ? fread(bytes, 1, sizeof bytes, file) : 0;
+    if (lines->count < MOST_LINES)
+        (void)snprintf(lines->line[lines->count++].text, sizeof lines->line->text,
+                       "%s %s %016" PRIx64, code, what, hash);
+}
+
+static bool find_lines(const char *path, lines_t *lines)
+{
+    static const yb_screen_t screens[2] = {{128, 64, YB_GREY4}, {WIDTH, HEIGHT, YB_RGB565}};
+    char code[64];
+    if (!load_code(path))
+        return false;
+    name_of(path, code);
+    add_line(lines, code, "mesh", mesh_hash(&map));
+    add_line(lines, code, "surface", surface_hash());
+    for (size_t k = 0; k < 2 * sizeof views / sizeof *views; k++) {
+        char what[40];
+        const yb_screen_t *screen = &screens[k % 2];
+        (void)snprintf(what, sizeof what, "%s-%dx%d", views[k / 2].name, screen->width,
+                       screen->height);
+        add_line(lines, code, what, frame_hash(k / 2, screen));
+        if (pictures != NULL)
+            write_picture(code, what);
+    }
+    return true;
+}
+
+static int compare(const char *path, const lines_t *lines)
+{
+    FILE *file = fopen(path, "r");
+    int wrong = 0;
+    char text[160];
+    for (int i = 0; i < lines->count; i++) {
+        bool have = file != NULL && fgets(text, sizeof text, file) != NULL;
+        text[have ? strcspn(text, "\n") : 0] = '\0';
+        if (strcmp(text, lines->line[i].text) != 0) {
+            printf("expected: %s\nfound:    %s\n", text, lines->line[i].text);
+            wrong++;
+        }
+    }
     if (file != NULL)
-        fclose(file);
-    if (yb_map_load(&map, &load, bytes, size) != YB_OK) {
-        fprintf(stderr, "golden: %s is no code\n", path);
+        (void)fclose(file);
+    printf("%d of %d golden lines differ\n", wrong, lines->count);
+    return wrong == 0 ? 0 : 1;
+}
+
+static int update(const char *path, const lines_t *lines)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL) {
+        perror(path);
         return 1;
     }
-    name_of(path, name);
-    printf("mesh %s %016llx\n", name, (unsigned long long)mesh_hash());
-    printf("surface %s %016llx\n", name, (unsigned long long)surface_hash());
-    const yb_screen_t small = {.width = 128, .height = 64, .format = YB_GREY4};
-    const yb_screen_t large = {.width = 320, .height = 240, .format = YB_RGB565};
-    for (int which = 0; yb_standard_view_name(which) != NULL; which++) {
-        draw(folder, name, which, &small, 8);
-        if (which % 4 == 0)
-            draw(folder, name, which, &large, 240);
-    }
-    return 0;
+    for (int i = 0; i < lines->count; i++)
+        (void)fprintf(file, "%s\n", lines->line[i].text);
+    return fclose(file) == 0 ? 0 : 1;
 }
 
 int main(int argc, char **argv)
 {
-    const char *folder = argc > 2 && strcmp(argv[1], "-p") == 0 ? argv[2] : NULL;
-    for (int i = folder != NULL ? 3 : 1; i < argc; i++) {
-        if (do_map(folder, argv[i]) != 0)
+    static lines_t lines;
+    bool write = false;
+    if (argc < 3) {
+        (void)fprintf(stderr, "usage: golden EXPECTED [--pictures FOLDER] [--update] CODE ...\n");
+        return 2;
+    }
+    for (int i = 2; i < argc; i++) {
+        if (strcmp(argv[i], "--update") == 0)
+            write = true;
+        else if (strcmp(argv[i], "--pictures") == 0 && i + 1 < argc)
+            pictures = argv[++i];
+        else if (!find_lines(argv[i], &lines))
             return 1;
     }
-    return 0;
+    return write ? update(argv[1], &lines) : compare(argv[1], &lines);
 }
