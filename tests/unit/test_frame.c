@@ -181,6 +181,11 @@ static void find_box(double p[3][3], box_t *box)
     }
 }
 
+static double within(double a, double low, double high)
+{
+    return fmin(fmax(a, low), high);
+}
+
 /* Marks the rays that meet the front of a leaf beyond the near distance. */
 static void cast(void *context, const yb_point_t *const corner[3])
 {
@@ -198,10 +203,10 @@ static void cast(void *context, const yb_point_t *const corner[3])
         return; /* right, up and depth are left-handed: the front is positive */
     box_t box;
     find_box(p, &box);
-    int x0 = (int)fmax((box.left - rays->left) / rays->pitch - 1, 0);
-    int x1 = (int)fmin((box.right - rays->left) / rays->pitch + 1, rays->across - 1);
-    int y0 = (int)fmax((box.top - rays->top) / rays->pitch - 1, 0);
-    int y1 = (int)fmin((box.bottom - rays->top) / rays->pitch + 1, rays->down - 1);
+    int x0 = (int)within((box.left - rays->left) / rays->pitch - 1, 0, rays->across);
+    int x1 = (int)within((box.right - rays->left) / rays->pitch + 1, -1, rays->across - 1);
+    int y0 = (int)within((box.top - rays->top) / rays->pitch - 1, 0, rays->down);
+    int y1 = (int)within((box.bottom - rays->top) / rays->pitch + 1, -1, rays->down - 1);
     for (int y = y0; y <= y1; y++) {
         for (int x = x0; x <= x1; x++) {
             double ray[3] = {(rays->left + x * rays->pitch - CRACK_WIDTH / 2) * 16,

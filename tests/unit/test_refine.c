@@ -62,7 +62,7 @@ static void edges_are_the_same_from_both_ends(void **state)
 {
     (void)state;
     rng_t rng = {61};
-    for (int round = 0; round < 150; round++) {
+    for (int round = 0; round < 80; round++) {
         begin_random_frame(&rng, round);
         (void)plain_leaves(&frame, check_edge, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
@@ -151,7 +151,7 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
     (void)state;
     rng_t rng = {62};
     bounds_t bounds = {.depth = 0};
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < 120; round++) {
         begin_random_frame(&rng, round);
         bounds.first_row = rng_range(&rng, 0, frame.screen.height - 1);
         bounds.end_row = rng_range(&rng, bounds.first_row + 1, frame.screen.height);
@@ -209,7 +209,7 @@ static void bins_hold_their_triangles(void **state)
 {
     (void)state;
     rng_t rng = {63};
-    for (int round = 0; round < 200; round++) {
+    for (int round = 0; round < 100; round++) {
         begin_random_frame(&rng, round);
         rows_t rows = {0};
         (void)plain_leaves(&frame, check_leaf_rows, &rows);

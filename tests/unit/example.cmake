@@ -1,0 +1,18 @@
+# Cuts the example out of the essay of yamabiko.h: the lines indented by four blanks between
+# "Example" and the end of the comment. HEADER: where from, OUT: where to.
+file(STRINGS ${HEADER} lines)
+set(inside OFF)
+set(code "")
+foreach(line IN LISTS lines)
+    if(line MATCHES "^ \\* Example ")
+        set(inside ON)
+    elseif(inside AND line MATCHES "^ \\*/")
+        break()
+    elseif(inside AND line MATCHES "^ \\*     (.*)$")
+        string(APPEND code "${CMAKE_MATCH_1}\n")
+    endif()
+endforeach()
+if(NOT code MATCHES "yb_map_load" OR NOT code MATCHES "yb_frame_band")
+    message(FATAL_ERROR "${HEADER} holds no example that loads a map and draws it")
+endif()
+file(WRITE ${OUT} "${code}")
