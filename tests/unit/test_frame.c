@@ -13,7 +13,8 @@
 
 enum {
     WIDTH = 320,
-    HEIGHT = 240
+    HEIGHT = 240,
+    SKY = 0xcefd /* the background in RGB 565 */
 };
 
 static yb_map_t map;
@@ -351,6 +352,51 @@ static void sane_views_have_levels_enough(void **state)
     print_message("up to %d leaves at 320x240\n", (int)most);
 }
 
+/* A block without overhangs, seen from outside: in each column of the screen the ground and the
+ * wall below it leave no background between them.
+ */
+static void walls_meet_the_ground(void **state)
+{
+    (void)state;
+    rng_t rng = {77};
+    int columns = 0;
+    for (int round = 0; round < 300; round++) {
+        if (round % 6 == 0) {
+            plan_t plan;
+            random_plan(&plan, &rng);
+            plan.gain = plan.gain > 12 ? 12 : plan.gain;
+            plan.unit = plan.unit > plan.cell / 4 ? plan.cell / 4 : plan.unit;
+            load_plan(&plan);
+        }
+        yb_view_t view;
+        yb_view_init(&view, &map);
+        uint16_t azimuth = (uint16_t)rng_range(&rng, 0, 65535);
+        uint16_t elevation = (uint16_t)rng_range(&rng, 500, 5000);
+        yb_view_orbit(&view, &map, azimuth, elevation, (uint16_t)rng_range(&rng, 250, 700));
+        view.look_q8[2] = view.eye_q8[2];
+        view.zoom_q12 = (uint16_t)rng_range(&rng, 1500, 4400);
+        view.edge_q4 = (uint16_t)rng_range(&rng, 64, 300);
+        if (round % 2 == 0)
+            view.water_q8 = rng_range(&rng, map.low_q8, map.high_q8);
+        const yb_screen_t screen = {160, 120, YB_RGB565};
+        yb_frame_begin(&frame, &map, &view, &screen);
+        draw(whole, 0, screen.height);
+        for (int x = 0; x < screen.width; x++) {
+            int changes = 0;
+            bool before = false;
+            for (int y = 0; y < screen.height; y++) {
+                const uint8_t *pixel = &whole[2 * (y * screen.width + x)];
+                bool ground = (pixel[0] << 8 | pixel[1]) != SKY;
+                changes += ground && !before;
+                before = ground;
+            }
+            columns += changes > 0;
+            CHECK(changes <= 1, "view %d: a gap in column %d", round, x);
+        }
+    }
+    assert_true(columns > 10000);
+}
+
 static void water_hides_what_is_under_it(void **state)
 {
     (void)state;
@@ -388,6 +434,7 @@ int main(void)
         cmocka_unit_test(there_are_no_cracks),
         cmocka_unit_test(leaves_keep_to_their_bound),
         cmocka_unit_test(sane_views_have_levels_enough),
+        cmocka_unit_test(walls_meet_the_ground),
         cmocka_unit_test(water_hides_what_is_under_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
