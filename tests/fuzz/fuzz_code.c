@@ -28,13 +28,14 @@ static yb_status_t feed(const uint8_t *code, size_t count, unsigned piece)
 {
     yb_status_t status = YB_MORE;
     yb_map_begin(&map, &load);
-    for (size_t at = 0; at < count && status == YB_MORE; at += piece) {
+    for (size_t at = 0; at < count && status >= 0; at += piece) {
         size_t rest = count - at;
         status = yb_map_feed(&map, &load, code + at, rest < piece ? rest : piece);
     }
-    if (yb_map_end(&map, &load) == YB_MORE)
+    yb_status_t end = yb_map_end(&map, &load);
+    if (end == YB_MORE || (status != YB_MORE && end != status))
         abort();
-    return status;
+    return end;
 }
 
 static void check_mesh(void)
