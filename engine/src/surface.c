@@ -14,11 +14,11 @@ const uint8_t split_child[8][SPLIT_CHILDREN][3] = {
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}},
 };
 
-/* fix_length is a norm, so a child's longest edge exceeds the limit by at most half of what its
- * parent's did: from below 2^17 that takes 17 levels.
+/* Each level at least halves the area, which twice over is a whole number of square 1/256 steps
+ * below 2^33: a triangle that is still split 32 levels down cannot be. So this holds for any limit.
  */
 enum {
-    LEVELS = 18
+    LEVELS = 34
 };
 
 typedef struct {
