@@ -108,7 +108,7 @@ typedef struct {
     int16_t gy_q11;      /* and towards the north */
 } yb_vertex_t;
 
-/* A length class: edges whose plan lengths differ by less than a third of an octave may share one. */
+/* A length class: plan lengths within less than a third of an octave may share one. */
 #define YB_LENGTH_CLASSES 64
 
 /* A map after YB_OK. Read it freely; only the yb_map_ calls write it.
