@@ -95,8 +95,6 @@ yb_status_t border_close(yb_map_t *map, yb_load_t *load)
         if (place_corner(map, load, k) != YB_OK)
             return YB_ERR_CORRUPT;
     }
-    if (map->vertex_count != load->vertices_promised)
-        return YB_ERR_CORRUPT;
     /* All from what the code says, none from another's interpolation: first compute, then store. */
     int32_t height[4];
     for (int k = 0; k < 4; k++) {

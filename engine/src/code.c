@@ -105,8 +105,8 @@ static yb_status_t take_frame_height(yb_map_t *map, yb_load_t *load, uint32_t co
 static yb_status_t take_count(yb_load_t *load, uint32_t count)
 {
     yb_contour_t *contour = &load->contour[load->at++];
-    contour->first = (uint8_t)load->point_count;
-    contour->count = (uint8_t)count;
+    contour->first = (yb_index_t)load->point_count;
+    contour->count = (yb_index_t)count;
     load->point_count = (uint16_t)(load->point_count + count);
     if (count == 0 || load->point_count > load->vertices_promised)
         return YB_ERR_CORRUPT;
@@ -186,6 +186,13 @@ static yb_status_t take_check(yb_map_t *map, yb_load_t *load)
         status = mesh_triangulate(map, load);
     if (status == YB_OK)
         status = regions_find(map, load);
+    if (status == YB_OK)
+        status = summits_add(map, load);
+    load->first_saddle = map->vertex_count;
+    if (status == YB_OK)
+        status = links_add(map, load);
+    if (status == YB_OK)
+        status = skeleton_add(map, load);
     if (status == YB_OK)
         relief_prepare(map, load);
     return status;

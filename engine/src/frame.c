@@ -6,7 +6,7 @@
 #include "refine.h"
 #include "shade.h"
 
-static bool on_screen(const yb_frame_t *frame, uint16_t triangle)
+static bool on_screen(const yb_frame_t *frame, yb_triangle_t triangle)
 {
     return frame->first_row[triangle] <= frame->last_row[triangle];
 }
@@ -18,7 +18,7 @@ static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
     while (frame->view.max_leaves > 0 && frame->split_q4 > 0) {
         frame->stats.refined = 0;
-        for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
+        for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
             if (on_screen(frame, t))
                 refine_draw(frame, whole, NULL, t);
         }
@@ -40,7 +40,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     shade_begin(frame);
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
-    for (uint16_t t = 0; t < map->triangle_count; t++)
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++)
         refine_bin(frame, &whole, t);
     bound_leaves(frame, &whole);
 }
@@ -58,7 +58,7 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     refine_view_t view;
     refine_see(frame, raster.first_row, raster.end_row, &view);
     raster_clear(&raster, shade_background(frame));
-    for (uint16_t t = 0; t < frame->map->triangle_count; t++) {
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
         if (on_screen(frame, t) && frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
             frame->last_row[t] >= raster.first_row >> YB_ROW_SHIFT)
             refine_draw(frame, &view, &raster, t);

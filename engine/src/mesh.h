@@ -1,10 +1,11 @@
 /* What the stages of loading share: the mesh while it is being built.
  *
- *     code ─► border_close ─► mesh_triangulate ─► regions_find ─► relief_prepare
+ *     code ─► border_close ─► mesh_triangulate ─► regions_find ─► summits_add ─► links_add
+ *          ─► skeleton_add ─► relief_prepare
  *
  * A triangle is three vertices, counter-clockwise; its edge i runs from corner i to corner i + 1,
- * and neighbour[t][i] is the triangle across it. An edge of a contour is *fixed*: it is marked in
- * both neighbour entries and never flipped.
+ * and neighbour[t][i] is the triangle across it. An edge that must stay is *marked*, in both
+ * neighbour entries, with what it stands for; a marked edge is never flipped nor crossed.
  */
 #ifndef YB_MESH_H
 #define YB_MESH_H
@@ -13,8 +14,17 @@
 
 enum {
     UNKNOWN_HEIGHT = INT32_MIN,
-    NO_TRIANGLE = 0x7fff, /* across the frame */
-    FIXED = 0x8000        /* bit of a neighbour entry: a contour runs along this edge */
+    MARK_SHIFT = 8 * sizeof(yb_entry_t) - 4,
+    NO_TRIANGLE = (1 << MARK_SHIFT) - 1 /* across the frame */
+};
+
+/* Why an edge must stay: the upper bits of a neighbour entry. */
+enum mark {
+    FREE = 0,
+    CONTOUR,    /* a segment of a line */
+    FAN_LINK,   /* from a summit to its line */
+    SADDLE_LINK /* from a link point to the lines it joins */,
+    SLOPE_LINK /* from a line to the next, down the slope */
 };
 
 static inline int next3(int i)
@@ -27,13 +37,18 @@ static inline int prev3(int i)
     return i == 0 ? 2 : i - 1;
 }
 
-static inline uint16_t neighbour_of(const yb_load_t *load, uint16_t t, int edge)
+static inline yb_triangle_t neighbour_of(const yb_load_t *load, yb_triangle_t t, int edge)
 {
     return load->neighbour[t][edge] & NO_TRIANGLE;
 }
 
+static inline enum mark mark_of(const yb_load_t *load, yb_triangle_t t, int edge)
+{
+    return (enum mark)(load->neighbour[t][edge] >> MARK_SHIFT);
+}
+
 /* Which corner of triangle t vertex v is; v is one of them. */
-static inline int corner_of(const yb_map_t *map, uint16_t t, yb_index_t v)
+static inline int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
 {
     return map->triangle[t][0] == v ? 0 : map->triangle[t][1] == v ? 1 : 2;
 }
@@ -43,16 +58,16 @@ static inline bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
     return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
 }
 
-/* Twice the area of abc in square quarter steps, positive when counter-clockwise. Coordinates are
- * multiples of 64 below 2^16, so differences are within ±2^10 and the result within ±2^21.
+/* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
+ * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
  */
 static inline int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c)
 {
     const yb_vertex_t *v = map->vertex;
-    int32_t abx = (v[b].x_q8 >> 6) - (v[a].x_q8 >> 6);
-    int32_t aby = (v[b].y_q8 >> 6) - (v[a].y_q8 >> 6);
-    int32_t acx = (v[c].x_q8 >> 6) - (v[a].x_q8 >> 6);
-    int32_t acy = (v[c].y_q8 >> 6) - (v[a].y_q8 >> 6);
+    int32_t abx = (v[b].x_q8 >> 2) - (v[a].x_q8 >> 2);
+    int32_t aby = (v[b].y_q8 >> 2) - (v[a].y_q8 >> 2);
+    int32_t acx = (v[c].x_q8 >> 2) - (v[a].x_q8 >> 2);
+    int32_t acy = (v[c].y_q8 >> 2) - (v[a].y_q8 >> 2);
     return abx * acy - aby * acx;
 }
 
@@ -66,31 +81,79 @@ YB_MUST_CHECK yb_status_t border_close(yb_map_t *map, yb_load_t *load);
  */
 YB_MUST_CHECK yb_status_t mesh_triangulate(yb_map_t *map, yb_load_t *load);
 
+/* Adds a vertex that lies in no triangle yet; corrupt if the code did not promise so many. */
+YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8,
+                                          uint16_t y_q8, int32_t z_q8);
+
+/* Splits t at vertex p, which lies on its edge `edge` (then the triangle across is split too) or,
+ * edge = -1, inside. Nothing is flipped.
+ */
+void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_index_t p);
+
+/* Makes the edges round the new vertex p Delaunay. */
+void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p);
+
+/* Makes ab an edge with a mark; corrupt if a marked edge or a vertex is in its way. */
+YB_MUST_CHECK yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a,
+                                          yb_index_t b, enum mark mark);
+
+/* Flips what is not marked until it is Delaunay. */
+void mesh_make_delaunay(yb_map_t *map, yb_load_t *load);
+
+/* A walk along the segment from vertex a to vertex b: the edges it crosses, in order. */
+typedef struct {
+    yb_index_t a, b;
+    yb_triangle_t t; /* the triangle the walk is in; it leaves by … */
+    int edge;        /* … this edge */
+} mesh_walk_t;
+
+typedef enum {
+    WALK_CROSSES, /* t and edge are set */
+    WALK_ENDS,    /* at b */
+    WALK_BLOCKED  /* it runs through another vertex */
+} mesh_step_t;
+
+mesh_step_t mesh_walk_begin(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
+                            mesh_walk_t *walk);
+mesh_step_t mesh_walk_on(const yb_map_t *map, const yb_load_t *load, mesh_walk_t *walk);
+
+/* Can ab become an edge? Not if a marked edge or a vertex is in its way. */
+bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b);
+
 /* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
 YB_MUST_CHECK yb_status_t regions_find(const yb_map_t *map, yb_load_t *load);
+
+/* Rules 4.1: a summit, or the bottom of a pit, for every region that has no height but one. */
+YB_MUST_CHECK yb_status_t summits_add(yb_map_t *map, yb_load_t *load);
+
+/* Rules 4 to 7: link points between peaks, links from summits and down the slopes (SPEC 2.5). */
+YB_MUST_CHECK yb_status_t links_add(yb_map_t *map, yb_load_t *load);
+
+/* Rules 6: points along the middle of whatever still is flat (SPEC 2.6). */
+YB_MUST_CHECK yb_status_t skeleton_add(yb_map_t *map, yb_load_t *load);
 
 /* Slopes, amplitude, and the tables of noise and reach (SPEC 3). */
 void relief_prepare(yb_map_t *map, const yb_load_t *load);
 
 /* The triangle after t (before t) in counter-clockwise order round vertex v, or NO_TRIANGLE. */
-static inline uint16_t turn_left(const yb_map_t *map, const yb_load_t *load, uint16_t t,
+static inline yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
                                  yb_index_t v)
 {
     return neighbour_of(load, t, prev3(corner_of(map, t, v)));
 }
 
-static inline uint16_t turn_right(const yb_map_t *map, const yb_load_t *load, uint16_t t,
+static inline yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
                                   yb_index_t v)
 {
     return neighbour_of(load, t, corner_of(map, t, v));
 }
 
 /* The rightmost triangle at v: the first one counter-clockwise if v is on the frame, any if not. */
-static inline uint16_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
+static inline yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
 {
-    uint16_t start = load->star[v];
-    for (uint16_t t = start;;) {
-        uint16_t before = turn_right(map, load, t, v);
+    yb_triangle_t start = load->star[v];
+    for (yb_triangle_t t = start;;) {
+        yb_triangle_t before = turn_right(map, load, t, v);
         if (before == NO_TRIANGLE || before == start)
             return t;
         t = before;

@@ -148,7 +148,7 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     }
 }
 
-void refine_bin(yb_frame_t *frame, const refine_view_t *whole, uint16_t triangle)
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
     const yb_point_t *const p[3] = {&frame->root[0], &frame->root[1], &frame->root[2]};
     for (int i = 0; i < 3; i++)
@@ -232,7 +232,7 @@ static bool open_level(yb_frame_t *frame, const refine_view_t *view, const raste
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                 uint16_t triangle)
+                 yb_triangle_t triangle)
 {
     yb_level_t *level = frame->level;
     for (int i = 0; i < 3; i++) {

@@ -51,11 +51,11 @@ void refine_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point);
 /* The rows that a base triangle may touch: frame->first_row, last_row. `whole` is the pyramid of
  * all rows.
  */
-void refine_bin(yb_frame_t *frame, const refine_view_t *whole, uint16_t triangle);
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle);
 
 /* Refines a base triangle and draws what it becomes; with raster NULL it is only counted. */
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                 uint16_t triangle);
+                 yb_triangle_t triangle);
 
 /* Draws the walls below the frame. */
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);

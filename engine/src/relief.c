@@ -110,25 +110,25 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
 
 /* Slope of the smooth surface at v: the area-weighted mean over the triangles that meet there, flat
  * ones left out. The upward normals n of triangles twice their area long are just summed: the slope
- * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^10 quarter steps and heights
- * within 2^17: a product is within 2^27, a normal 2^28, and a star of 510 triangles 2^37.
+ * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^14 1/64 steps and heights
+ * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49.
  */
 static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
 {
     int64_t sum_x = 0;
     int64_t sum_y = 0;
     int64_t sum_z = 0;
-    uint16_t first = first_at(map, load, v);
-    uint16_t t = first;
+    yb_triangle_t first = first_at(map, load, v);
+    yb_triangle_t t = first;
     do {
         const yb_vertex_t *a = &map->vertex[map->triangle[t][0]];
         const yb_vertex_t *b = &map->vertex[map->triangle[t][1]];
         const yb_vertex_t *c = &map->vertex[map->triangle[t][2]];
-        int32_t abx = (b->x_q8 - a->x_q8) >> 6;
-        int32_t aby = (b->y_q8 - a->y_q8) >> 6;
+        int32_t abx = (b->x_q8 - a->x_q8) >> 2;
+        int32_t aby = (b->y_q8 - a->y_q8) >> 2;
         int32_t abz = b->z_q8 - a->z_q8;
-        int32_t acx = (c->x_q8 - a->x_q8) >> 6;
-        int32_t acy = (c->y_q8 - a->y_q8) >> 6;
+        int32_t acx = (c->x_q8 - a->x_q8) >> 2;
+        int32_t acy = (c->y_q8 - a->y_q8) >> 2;
         int32_t acz = c->z_q8 - a->z_q8;
         if (abz != 0 || acz != 0) {
             sum_x += (int64_t)aby * acz - (int64_t)abz * acy;
@@ -139,10 +139,10 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
     } while (t != NO_TRIANGLE && t != first);
     if (sum_z == 0)
         return; /* flat all round: level */
-    /* Heights count 1/256 step, plan differences 1/4 step: 6 bits; with the slope's 11, times 2^5,
-     * 2^42 in all. Rounded down, like everything. */
-    int64_t gx = -sum_x * 32;
-    int64_t gy = -sum_y * 32;
+    /* Heights count 1/256 step, plan differences 1/64 step: 2 bits; with the slope's 11, times 2^9,
+     * 2^58 in all. Rounded down, like everything. */
+    int64_t gx = -sum_x * 512;
+    int64_t gy = -sum_y * 512;
     gx = gx >= 0 ? gx / sum_z : -((sum_z - 1 - gx) / sum_z);
     gy = gy >= 0 ? gy / sum_z : -((sum_z - 1 - gy) / sum_z);
     const int64_t most = YB_MAX_SLOPE_Q11;
@@ -166,9 +166,9 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
 {
     uint64_t sum = 0;
     uint32_t edges = 0;
-    for (uint16_t t = 0; t < map->triangle_count; t++) {
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++) {
-            uint16_t u = neighbour_of(load, t, i);
+            yb_triangle_t u = neighbour_of(load, t, i);
             if (u < t)
                 continue; /* each edge once; those of the frame too */
             edges++;

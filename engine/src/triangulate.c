@@ -11,7 +11,7 @@
  */
 #include "mesh.h"
 
-static void put_triangle(yb_map_t *map, yb_load_t *load, uint16_t t, yb_index_t a, yb_index_t b,
+static void put_triangle(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_index_t a, yb_index_t b,
                          yb_index_t c)
 {
     map->triangle[t][0] = a;
@@ -20,32 +20,32 @@ static void put_triangle(yb_map_t *map, yb_load_t *load, uint16_t t, yb_index_t 
     load->star[a] = load->star[b] = load->star[c] = t;
 }
 
-/* Edge i of t looks at `entry` (a triangle and perhaps FIXED), and that triangle back at t. */
-static void link_edge(const yb_map_t *map, yb_load_t *load, uint16_t t, int i, uint16_t entry)
+/* Edge i of t looks at `entry` (a triangle and a mark), and that triangle back at t. */
+static void link_edge(const yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i, yb_entry_t entry)
 {
     load->neighbour[t][i] = entry;
-    uint16_t u = entry & NO_TRIANGLE;
+    yb_triangle_t u = entry & NO_TRIANGLE;
     if (u == NO_TRIANGLE)
         return;
     int j = corner_of(map, u, map->triangle[t][next3(i)]);
-    load->neighbour[u][j] = (uint16_t)(t | (entry & FIXED));
+    load->neighbour[u][j] = (yb_entry_t)(t | (entry & ~(yb_entry_t)NO_TRIANGLE));
 }
 
 /* Replaces the common edge ab of t and its neighbour by the other diagonal dc of their quad. With
  * t = (a b c) before, edge ab being edge i, t becomes (a d c) and the neighbour (d b c).
  */
-static void flip(yb_map_t *map, yb_load_t *load, uint16_t t, int i)
+static void flip(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i)
 {
-    uint16_t u = neighbour_of(load, t, i);
+    yb_triangle_t u = neighbour_of(load, t, i);
     yb_index_t a = map->triangle[t][i];
     yb_index_t b = map->triangle[t][next3(i)];
     yb_index_t c = map->triangle[t][prev3(i)];
     int j = corner_of(map, u, b);
     yb_index_t d = map->triangle[u][prev3(j)];
-    uint16_t bc = load->neighbour[t][next3(i)];
-    uint16_t ca = load->neighbour[t][prev3(i)];
-    uint16_t ad = load->neighbour[u][next3(j)];
-    uint16_t db = load->neighbour[u][prev3(j)];
+    yb_entry_t bc = load->neighbour[t][next3(i)];
+    yb_entry_t ca = load->neighbour[t][prev3(i)];
+    yb_entry_t ad = load->neighbour[u][next3(j)];
+    yb_entry_t db = load->neighbour[u][prev3(j)];
     put_triangle(map, load, t, a, d, c);
     put_triangle(map, load, u, d, b, c);
     link_edge(map, load, t, 0, ad);
@@ -55,8 +55,8 @@ static void flip(yb_map_t *map, yb_load_t *load, uint16_t t, int i)
     link_edge(map, load, t, 1, u);
 }
 
-/* Does d lie inside the circle through a, b, c (counter-clockwise)? Differences of quarter steps
- * are within 2^10, squares of length 2^21, areas 2^21: each of the three terms is below 2^42.
+/* Does d lie inside the circle through a, b, c (counter-clockwise)? Differences in 1/64 steps are
+ * within 2^14, squares of length 2^29, areas 2^29: each of the three terms is below 2^58.
  */
 static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c, yb_index_t d)
 {
@@ -65,8 +65,8 @@ static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_
     int32_t x[3];
     int32_t y[3];
     for (int i = 0; i < 3; i++) {
-        x[i] = (map->vertex[corner[i]].x_q8 >> 6) - (o->x_q8 >> 6);
-        y[i] = (map->vertex[corner[i]].y_q8 >> 6) - (o->y_q8 >> 6);
+        x[i] = (map->vertex[corner[i]].x_q8 >> 2) - (o->x_q8 >> 2);
+        y[i] = (map->vertex[corner[i]].y_q8 >> 2) - (o->y_q8 >> 2);
     }
     int64_t sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -82,10 +82,10 @@ static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_
 }
 
 /* Is edge i of t to be flipped? */
-static bool illegal(const yb_map_t *map, const yb_load_t *load, uint16_t t, int i)
+static bool illegal(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
 {
-    uint16_t entry = load->neighbour[t][i];
-    if ((entry & FIXED) != 0 || entry == NO_TRIANGLE)
+    yb_entry_t entry = load->neighbour[t][i];
+    if (entry >= NO_TRIANGLE) /* the frame, or marked */
         return false;
     const yb_index_t *v = map->triangle[t];
     int j = corner_of(map, entry, v[next3(i)]);
@@ -96,9 +96,9 @@ static bool illegal(const yb_map_t *map, const yb_load_t *load, uint16_t t, int 
  * one more triangle, whose edge is looked at next; a spoke of p is never flipped, so the walk ends
  * when it comes to the spoke it started with.
  */
-static void legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
+void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
 {
-    uint16_t t = first_at(map, load, p);
+    yb_triangle_t t = first_at(map, load, p);
     yb_index_t first_spoke = map->triangle[t][next3(corner_of(map, t, p))];
     for (;;) {
         int opposite = next3(corner_of(map, t, p));
@@ -106,7 +106,7 @@ static void legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
             flip(map, load, t, opposite); /* t = (a d p): the first of the two new ones */
             continue;
         }
-        uint16_t left = turn_left(map, load, t, p);
+        yb_triangle_t left = turn_left(map, load, t, p);
         if (left == NO_TRIANGLE ||
             map->triangle[left][next3(corner_of(map, left, p))] == first_spoke)
             return;
@@ -117,7 +117,7 @@ static void legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
 /* Finds the triangle that holds vertex p by walking towards it from t. In a Delaunay triangulation
  * such a walk never goes in circles. *edge: the edge p lies on, or -1.
  */
-static uint16_t locate(const yb_map_t *map, const yb_load_t *load, uint16_t t, yb_index_t p,
+static yb_triangle_t locate(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t p,
                        int *edge)
 {
     for (;;) {
@@ -144,16 +144,17 @@ static bool same_place(const yb_map_t *map, yb_index_t a, yb_index_t b)
 /* Splits t = (a b c) at p into (a b p), (b c p), (c a p); edge 0 of t is `edge`, where p may lie
  * on it. Then ab p is flat: it is flipped away, or, on the frame, dropped.
  */
-static void insert(yb_map_t *map, yb_load_t *load, uint16_t t, int edge, yb_index_t p)
+void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_index_t p)
 {
     int i = edge < 0 ? 0 : edge;
     yb_index_t a = map->triangle[t][i];
     yb_index_t b = map->triangle[t][next3(i)];
     yb_index_t c = map->triangle[t][prev3(i)];
-    uint16_t ab = load->neighbour[t][i];
-    uint16_t bc = load->neighbour[t][next3(i)];
-    uint16_t ca = load->neighbour[t][prev3(i)];
-    uint16_t u = map->triangle_count++;
+    yb_entry_t ab = load->neighbour[t][i];
+    yb_entry_t bc = load->neighbour[t][next3(i)];
+    yb_entry_t ca = load->neighbour[t][prev3(i)];
+    yb_triangle_t u = map->triangle_count++;
+    load->region[u] = load->region[t];
     put_triangle(map, load, t, b, c, p);
     put_triangle(map, load, u, c, a, p);
     link_edge(map, load, t, 0, bc);
@@ -164,7 +165,8 @@ static void insert(yb_map_t *map, yb_load_t *load, uint16_t t, int edge, yb_inde
         load->neighbour[u][1] = NO_TRIANGLE;
         return;
     }
-    uint16_t w = map->triangle_count++;
+    yb_triangle_t w = map->triangle_count++;
+    load->region[w] = load->region[t];
     put_triangle(map, load, w, a, b, p);
     link_edge(map, load, w, 0, ab);
     link_edge(map, load, w, 1, t);
@@ -182,9 +184,9 @@ static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
     load->neighbour[0][0] = load->neighbour[0][1] = NO_TRIANGLE;
     load->neighbour[1][1] = load->neighbour[1][2] = NO_TRIANGLE;
     link_edge(map, load, 0, 2, 1);
-    legalise(map, load, corner[0]);
-    legalise(map, load, corner[1]);
-    uint16_t t = 0;
+    mesh_legalise(map, load, corner[0]);
+    mesh_legalise(map, load, corner[1]);
+    yb_triangle_t t = 0;
     for (int i = 0; i < map->vertex_count; i++) {
         yb_index_t p = (yb_index_t)i;
         if (p == corner[0] || p == corner[1] || p == corner[2] || p == corner[3])
@@ -195,8 +197,8 @@ static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
             if (same_place(map, map->triangle[t][k], p))
                 return YB_ERR_CORRUPT;
         }
-        insert(map, load, t, edge, p);
-        legalise(map, load, p);
+        mesh_split(map, load, t, edge, p);
+        mesh_legalise(map, load, p);
         t = load->star[p];
     }
     return YB_OK;
@@ -209,10 +211,10 @@ static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
  */
 static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t from, yb_index_t to)
 {
-    uint16_t first = first_at(map, load, v);
+    yb_triangle_t first = first_at(map, load, v);
     while (map->triangle[first][next3(corner_of(map, first, v))] != from)
         first = turn_left(map, load, first, v);
-    uint16_t t = first;
+    yb_triangle_t t = first;
     for (;;) {
         int at = corner_of(map, t, v);
         yb_index_t s = map->triangle[t][next3(at)];
@@ -223,7 +225,7 @@ static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t f
             t = first;
             continue;
         }
-        uint16_t after = turn_left(map, load, t, v);
+        yb_triangle_t after = turn_left(map, load, t, v);
         yb_index_t f = map->triangle[after][prev3(corner_of(map, after, v))];
         if (orientation(map, s, e, f) <= 0) {
             t = after;
@@ -240,11 +242,11 @@ static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t f
 /* The triangle at a whose opposite edge the segment ab leaves through, or, with *is_edge, one that
  * has ab as an edge already. NO_TRIANGLE: ab runs through another vertex.
  */
-static uint16_t towards(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
+static yb_triangle_t towards(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
                         bool *is_edge)
 {
-    uint16_t first = first_at(map, load, a);
-    uint16_t t = first;
+    yb_triangle_t first = first_at(map, load, a);
+    yb_triangle_t t = first;
     do {
         int at = corner_of(map, t, a);
         yb_index_t s = map->triangle[t][next3(at)];
@@ -262,7 +264,7 @@ static uint16_t towards(const yb_map_t *map, const yb_load_t *load, yb_index_t a
 /* Takes one vertex off the channel of ab: walks from t (at a) along ab and removes the first vertex
  * at which a side of the channel bulges away from ab. There is one: that farthest from ab.
  */
-static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, uint16_t t, yb_index_t a,
+static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_index_t a,
                                   yb_index_t b)
 {
     int at = corner_of(map, t, a);
@@ -272,9 +274,9 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, uint16_t t, yb
     yb_index_t right_before = a;
     yb_index_t left_before = a;
     for (;;) {
-        if ((load->neighbour[t][edge] & FIXED) != 0)
+        if (mark_of(load, t, edge) != FREE)
             return YB_ERR_CORRUPT; /* two contours cross */
-        uint16_t u = neighbour_of(load, t, edge);
+        yb_triangle_t u = neighbour_of(load, t, edge);
         int j = corner_of(map, u, left);
         yb_index_t apex = map->triangle[u][prev3(j)];
         int32_t side = apex == b ? 0 : orientation(map, a, b, apex);
@@ -306,23 +308,61 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, uint16_t t, yb
  * vertex off the channel's sides (those edges that it had across the channel are flipped to its
  * neighbours), until none is left between a and b. Each vertex leaves once: it always ends.
  */
-static yb_status_t force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b)
+yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b,
+                            enum mark mark)
 {
     for (;;) {
         bool is_edge = false;
-        uint16_t t = towards(map, load, a, b, &is_edge);
+        yb_triangle_t t = towards(map, load, a, b, &is_edge);
         if (t == NO_TRIANGLE)
             return YB_ERR_CORRUPT;
         if (is_edge) {
             int i = corner_of(map, t, a);
             if (map->triangle[t][next3(i)] != b)
                 i = prev3(i);
-            link_edge(map, load, t, i, load->neighbour[t][i] | FIXED);
+            link_edge(map, load, t, i,
+                      (yb_entry_t)(neighbour_of(load, t, i) | (yb_entry_t)mark << MARK_SHIFT));
             return YB_OK;
         }
         if (narrow_channel(map, load, t, a, b) != YB_OK)
             return YB_ERR_CORRUPT;
     }
+}
+
+mesh_step_t mesh_walk_begin(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
+                            mesh_walk_t *walk)
+{
+    bool is_edge = false;
+    walk->a = a;
+    walk->b = b;
+    walk->t = towards(map, load, a, b, &is_edge);
+    if (walk->t == NO_TRIANGLE)
+        return WALK_BLOCKED;
+    walk->edge = next3(corner_of(map, walk->t, a));
+    return is_edge ? WALK_ENDS : WALK_CROSSES;
+}
+
+mesh_step_t mesh_walk_on(const yb_map_t *map, const yb_load_t *load, mesh_walk_t *walk)
+{
+    yb_triangle_t u = neighbour_of(load, walk->t, walk->edge);
+    int j = corner_of(map, u, map->triangle[walk->t][next3(walk->edge)]);
+    yb_index_t apex = map->triangle[u][prev3(j)];
+    walk->t = u;
+    if (apex == walk->b)
+        return WALK_ENDS;
+    int32_t side = orientation(map, walk->a, walk->b, apex);
+    /* u = (left, right, apex), edge j being left-right: on through apex-left or right-apex. */
+    walk->edge = side > 0 ? next3(j) : prev3(j);
+    return side == 0 ? WALK_BLOCKED : WALK_CROSSES;
+}
+
+bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b)
+{
+    mesh_walk_t walk;
+    mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
+    while (step == WALK_CROSSES && mark_of(load, walk.t, walk.edge) == FREE)
+        step = mesh_walk_on(map, load, &walk);
+    return step == WALK_ENDS;
 }
 
 static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
@@ -333,7 +373,7 @@ static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
         for (int k = 0; k < edges && contour->count > 1; k++) {
             yb_index_t a = (yb_index_t)(contour->first + k);
             yb_index_t b = (yb_index_t)(contour->first + (k + 1) % contour->count);
-            if (force_edge(map, load, a, b) != YB_OK)
+            if (mesh_force_edge(map, load, a, b, CONTOUR) != YB_OK)
                 return YB_ERR_CORRUPT;
         }
     }
@@ -341,12 +381,12 @@ static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
 }
 
 /* Flips until no edge is illegal. Each flip lowers the lifted surface, so this ends. */
-static void make_delaunay(yb_map_t *map, yb_load_t *load)
+void mesh_make_delaunay(yb_map_t *map, yb_load_t *load)
 {
     bool flipped = true;
     while (flipped) {
         flipped = false;
-        for (uint16_t t = 0; t < map->triangle_count; t++) {
+        for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
             for (int i = 0; i < 3; i++) {
                 if (illegal(map, load, t, i)) {
                     flip(map, load, t, i);
@@ -363,6 +403,6 @@ yb_status_t mesh_triangulate(yb_map_t *map, yb_load_t *load)
     if (status == YB_OK)
         status = force_contours(map, load);
     if (status == YB_OK)
-        make_delaunay(map, load);
+        mesh_make_delaunay(map, load);
     return status;
 }

@@ -58,18 +58,6 @@ static int corners_coded(const yb_paper_t *paper)
     return coded;
 }
 
-/* Vertices of the mesh: the points and those corners that no line ends at. */
-static int vertex_count(const yb_paper_t *paper)
-{
-    int corners = YB_CORNERS;
-    for (int i = 0; i < paper->point_count; i++) {
-        yb_step_t at = paper->point[i];
-        if ((at.x == 0 || at.x == paper->east) && (at.y == 0 || at.y == paper->north))
-            corners--;
-    }
-    return paper->point_count + corners;
-}
-
 size_t yb_paper_size(const yb_paper_t *paper)
 {
     int coded = corners_coded(paper);
@@ -108,7 +96,7 @@ static void put_header(writer_t *writer, const yb_paper_t *paper)
     put_byte(writer, YB_FORMAT_VERSION << 4);
     put_byte(writer, flags);
     put_byte(writer, (unsigned)paper->contour_count);
-    put_byte(writer, (unsigned)vertex_count(paper));
+    put_byte(writer, paper->vertices > 0 ? (unsigned)paper->vertices : YB_PAPER_POINTS);
     put_byte(writer, paper->east);
     put_byte(writer, paper->north);
     put_pair(writer, paper->cell);
@@ -166,8 +154,6 @@ static uint8_t crc8(const uint8_t *bytes, size_t count)
 
 size_t yb_paper_write(const yb_paper_t *paper, uint8_t code[YB_MAX_CODE_BYTES])
 {
-    if (vertex_count(paper) > YB_PAPER_POINTS)
-        return 0;
     writer_t writer = {.code = code};
     put_header(&writer, paper);
     put_bits(&writer, paper->dimension, 8);
@@ -257,11 +243,17 @@ bool yb_paper_split(yb_paper_t *paper)
 
 yb_code_file_t *yb_paper_check(const yb_paper_t *paper, yb_error_t *error)
 {
+    yb_paper_t counted = *paper;
     uint8_t code[YB_MAX_CODE_BYTES];
-    size_t size = yb_paper_write(paper, code);
+    size_t size = yb_paper_write(&counted, code);
     if (size == 0) {
         yb_error_set(error, "the contours do not fit the format");
         return NULL;
     }
-    return yb_code_file_from_bytes("the new code", code, size, error);
+    yb_code_file_t *file = yb_code_file_from_bytes("the new code", code, size, error);
+    if (file == NULL || counted.vertices > 0)
+        return file;
+    counted.vertices = file->map.vertex_count;
+    yb_code_file_free(file);
+    return yb_code_file_from_bytes("the new code", code, yb_paper_write(&counted, code), error);
 }

@@ -168,8 +168,6 @@ bool plan_valid(const plan_t *plan)
 {
     if (!frame_legal(plan))
         return false;
-    if (plan->vertices != PLAN_COUNT && plan->vertices != plan_vertices(plan))
-        return false;
     for (int i = 0; i < plan->contours; i++) {
         if (!contour_legal(plan, i) || !height_legal(plan, plan->contour[i].height))
             return false;
@@ -271,7 +269,7 @@ static void put_header(const plan_t *plan, bits_t *bits)
     put(bits, 2, plan->straight ? 1 : 0);
     put(bits, 2, plan->shift);
     put(bits, 8, plan->contours);
-    put(bits, 8, plan->vertices == PLAN_COUNT ? plan_vertices(plan) : plan->vertices);
+    put(bits, 8, plan->vertices == PLAN_COUNT ? 255 : plan->vertices);
     put(bits, 8, plan->east);
     put(bits, 8, plan->north);
     put(bits, 16, plan->cell);

@@ -5,13 +5,15 @@
 #define YAMABIKO_CONFIG_H
 
 /* Most vertices of a mesh. 255 keeps indices in 8 bits: a map then takes 12 bytes a vertex and
- * 6 a vertex for triangles. A code of format version 1 never asks for more than 255.
+ * 6 a vertex for triangles. A code of the paper profile never asks for more than 255; more, up to
+ * 65535, are for maps that are built from contours in full detail (yb_map_build). The surface of a
+ * code is the same in every build that it fits.
  */
 #ifndef YB_MAX_VERTICES
 #define YB_MAX_VERTICES 255
 #endif
-#if YB_MAX_VERTICES < 4 || YB_MAX_VERTICES > 255
-#error "YB_MAX_VERTICES: 4 to 255"
+#if YB_MAX_VERTICES < 4 || YB_MAX_VERTICES > 65535
+#error "YB_MAX_VERTICES: 4 to 65535"
 #endif
 
 /* Longest side of a screen, in pixels. Up to 512 the edge functions of the rasteriser fit 32 bits;

@@ -68,8 +68,8 @@ extern "C" {
 /* --- Limits ----------------------------------------------------------------------------------- */
 
 #define YB_MAX_TRIANGLES (2 * YB_MAX_VERTICES)
-/* Contours of a code, summits among them. */
-#define YB_MAX_CONTOURS 255
+/* Contours of a map, summits among them. A code has at most 255. */
+#define YB_MAX_CONTOURS YB_MAX_VERTICES
 /* Longest legal code of the paper profile, in bytes: 255 summits. */
 #define YB_MAX_CODE_BYTES 1299
 /* |height| of a decoded vertex: 512 steps, twice the width of the map. */
@@ -99,7 +99,16 @@ const char *yb_status_text(yb_status_t status);
 
 /* --- The map ---------------------------------------------------------------------------------- */
 
-typedef uint8_t yb_index_t; /* a vertex; YB_MAX_VERTICES bounds it */
+/* Numbers of vertices, contours and regions; of triangles; a triangle across an edge, with marks. */
+#if YB_MAX_VERTICES <= 255
+typedef uint8_t yb_index_t;
+typedef uint16_t yb_triangle_t;
+typedef uint16_t yb_entry_t;
+#else
+typedef uint16_t yb_index_t;
+typedef uint32_t yb_triangle_t;
+typedef uint32_t yb_entry_t;
+#endif
 
 typedef struct {
     uint16_t x_q8, y_q8; /* plan position: a multiple of 64, a quarter step */
@@ -119,7 +128,7 @@ typedef struct {
     yb_vertex_t vertex[YB_MAX_VERTICES];
     yb_index_t triangle[YB_MAX_TRIANGLES][3];
     uint16_t vertex_count;
-    uint16_t triangle_count;
+    yb_triangle_t triangle_count;
     uint16_t east_q8;  /* x of the frame's eastern side; the western one is 0 */
     uint16_t north_q8; /* y of the frame's northern side */
     int32_t low_q8;    /* height of the lowest vertex */
@@ -139,12 +148,20 @@ typedef struct {
 
 /* One contour of a code, as decoded. */
 typedef struct {
-    uint8_t first; /* index of its first vertex */
-    uint8_t count; /* points: 1 is a summit (or any spot height) */
-    uint8_t left;  /* region on its left side, in the direction of its points */
-    uint8_t right; /* region on its right side; equal to left for a spot height */
-    bool open;     /* its ends lie on the frame */
+    yb_index_t first; /* index of its first vertex */
+    yb_index_t count; /* points: 1 is a summit (or any spot height) */
+    yb_index_t left;  /* region on its left side, in the direction of its points */
+    yb_index_t right; /* region on its right side; equal to left for a spot height */
+    bool open;        /* its ends lie on the frame */
 } yb_contour_t;
+
+/* A point of the skeleton. Private to loading. */
+typedef struct {
+    yb_index_t parent; /* the point it was reached from */
+    yb_index_t other;  /* the second one, where two branches meet; later, the branch's end */
+    bool grown, meets;
+    uint32_t way;
+} yb_branch_t;
 
 /* Working memory of decoding. contour[0 .. contour_count) and region_count stay valid after YB_OK
  * for those who want to know how the map is built; all else is private.
@@ -153,6 +170,9 @@ typedef struct {
     yb_contour_t contour[YB_MAX_CONTOURS];
     uint16_t contour_count;
     uint16_t region_count;
+    uint16_t summit_count;   /* contour[contour_count ..] are so many summits that were added */
+    uint16_t first_saddle;   /* vertices from here on are link points … */
+    uint16_t first_skeleton; /* … and from here on points of skeletons */
     /* private: the decoder */
     uint8_t state;
     uint8_t crc;
@@ -161,7 +181,7 @@ typedef struct {
     uint32_t bits;
     uint16_t at; /* how far the state has come */
     uint16_t point_count;
-    uint8_t vertices_promised;
+    uint16_t vertices_promised;
     uint8_t gain;
     yb_status_t result;
     int32_t corner_height[4];
@@ -169,9 +189,13 @@ typedef struct {
     uint8_t header[16];
     /* private: the triangulation */
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
-    uint16_t neighbour[YB_MAX_TRIANGLES][3];
-    uint16_t region[YB_MAX_TRIANGLES];
-    uint16_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
+    yb_entry_t neighbour[YB_MAX_TRIANGLES][3];
+    yb_triangle_t region[YB_MAX_TRIANGLES];
+    /* private: the rules */
+    yb_index_t scratch[YB_MAX_CONTOURS + 1]; /* of a region */
+    yb_index_t group[YB_MAX_CONTOURS];
+    yb_branch_t branch[YB_MAX_VERTICES];
+    yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
 } yb_load_t;
 
 /* Starts a code. Both structs may hold anything before; map is undefined until YB_OK. */
@@ -212,7 +236,7 @@ typedef void (*yb_triangle_fn)(void *context, const yb_vertex_t *a, const yb_ver
  * became. All triangles of a map, refined to one length, fit together without cracks.
  * YB_REFERENCE_Q8 gives the reference surface, 65535 the base triangle itself.
  */
-void yb_map_refine(const yb_map_t *map, uint16_t triangle, uint16_t longest_q8, yb_triangle_fn fn,
+void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8, yb_triangle_fn fn,
                    void *context);
 
 /* A coded unit (12 bits of mantissa, 4 of exponent) in 1/64 m: mantissa << exponent. */
