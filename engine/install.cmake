@@ -1,11 +1,12 @@
 # What `cmake --install` puts where; included at the end of the top CMakeLists.txt.
-#   find_package(yamabiko)  gives yamabiko::engine, and yamabiko::panels where they are built;
+#   find_package(yamabiko)  gives yamabiko::engine, and yamabiko::panels where they are built
+#                         (it speaks only the engine's types: link both);
 #   pkg-config              knows them as yamabiko and yamabiko-panels.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/yamabiko)
 set(generated ${PROJECT_BINARY_DIR}/install)
 
-install(TARGETS yb_engine EXPORT yamabikoTargets)
+install(TARGETS yb_api yb_engine EXPORT yamabikoTargets)
 install(DIRECTORY engine/include/yamabiko DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET yb_panels)
     install(TARGETS yb_panels EXPORT yamabikoTargets)

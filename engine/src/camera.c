@@ -147,7 +147,7 @@ static int32_t nearest_of(const yb_frame_t *frame, const yb_index_t corner[3])
 static void find_near(yb_frame_t *frame)
 {
     int32_t nearest = INT32_MAX;
-    for (int t = 0; t < frame->map->triangle_count; t++)
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
         nearest = fix_min(nearest, nearest_of(frame, frame->map->triangle[t]));
     frame->near_q8 = fix_max(nearest - 1, NEAREST_Q8);
     int shift = fix_log2_floor((uint32_t)frame->near_q8) - 14;

@@ -5,6 +5,7 @@
  * claim is checked as soon as it is known, so that a bad code is refused early and every index
  * below is in range.
  */
+#include <stddef.h>
 #include <string.h>
 
 #include <yamabiko/yamabiko.h>
@@ -32,9 +33,11 @@ enum {
 
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
 {
-    memset(map, 0, sizeof *map);
-    memset(load, 0, sizeof *load);
+    /* All but the arrays, which may be large and are written before they are read. */
+    memset(map, 0, offsetof(yb_map_t, vertex));
+    memset(load, 0, offsetof(yb_load_t, contour));
     map->detail = true;
+    load->vertices_promised = YB_MAX_VERTICES;
     for (int i = 0; i < 4; i++)
         load->corner_height[i] = UNKNOWN_HEIGHT;
     load->result = YB_MORE;
@@ -176,11 +179,9 @@ static yb_status_t take_step(yb_map_t *map, yb_load_t *load, uint32_t twelve)
                       (last->y_q8 >> 8) + difference(load, twelve));
 }
 
-static yb_status_t take_check(yb_map_t *map, yb_load_t *load)
+yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
-    if (load->crc != 0)
-        return YB_ERR_CORRUPT;
-    load->state = DONE;
+    map->vertex_count = load->point_count;
     yb_status_t status = border_close(map, load);
     if (status == YB_OK)
         status = mesh_triangulate(map, load);
@@ -196,6 +197,14 @@ static yb_status_t take_check(yb_map_t *map, yb_load_t *load)
     if (status == YB_OK)
         relief_prepare(map, load);
     return status;
+}
+
+static yb_status_t take_check(yb_map_t *map, yb_load_t *load)
+{
+    if (load->crc != 0)
+        return YB_ERR_CORRUPT;
+    load->state = DONE;
+    return yb_map_build(map, load);
 }
 
 static yb_status_t take_field(yb_map_t *map, yb_load_t *load, uint32_t field)

@@ -137,6 +137,8 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
         }
         t = turn_left(map, load, t, v);
     } while (t != NO_TRIANGLE && t != first);
+    map->vertex[v].gx_q11 = 0;
+    map->vertex[v].gy_q11 = 0;
     if (sum_z == 0)
         return; /* flat all round: level */
     /* Heights count 1/256 step, plan differences 1/64 step: 2 bits; with the slope's 11, times 2^9,

@@ -113,7 +113,7 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
     int32_t y = fix_min(y_q8, map->north_q8);
     yb_vertex_t corner[3] = {{0}};
     const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
-    for (int t = 0; t < map->triangle_count; t++) {
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++)
             corner[i] = map->vertex[map->triangle[t][i]];
         if (holds(p, x, y))

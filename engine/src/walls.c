@@ -84,7 +84,7 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
     const yb_map_t *map = frame->map;
-    for (int t = 0; t < map->triangle_count; t++) {
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++) {
             yb_index_t a = map->triangle[t][i];
             yb_index_t b = map->triangle[t][i == 2 ? 0 : i + 1];

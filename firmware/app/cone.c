@@ -4,7 +4,7 @@
 #include "turntable.h"
 
 const uint8_t yb_built_in_map[] = {
-    0x10,       /* format version 1, paper profile */
+    0x20,       /* format version 2, paper profile */
     0x02,       /* one height for the whole frame; smooth; differences in units of 4 steps */
     4, 26,      /* contours; vertices: 22 points and the frame's corners */
     255, 255,   /* the frame, in steps */

@@ -148,7 +148,7 @@ double yb_judge_score_m(yb_judge_t *judge, const yb_paper_t *paper)
     judge->base_m = paper->base_m;
     lay_axis(&judge->across, paper->east);
     lay_axis(&judge->up, paper->north);
-    for (uint16_t i = 0; i < judge->map.triangle_count; i++)
+    for (yb_triangle_t i = 0; i < judge->map.triangle_count; i++)
         yb_map_refine(&judge->map, i, REFINE_Q8, sample_triangle, judge);
     int columns = judge->across.count;
     int samples = columns * judge->up.count;

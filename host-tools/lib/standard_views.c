@@ -45,7 +45,7 @@ static void take_highest(void *context, const yb_vertex_t *a, const yb_vertex_t 
 static summit_t find_summit(const yb_map_t *map)
 {
     summit_t summit = {.found = false};
-    for (uint16_t i = 0; i < map->triangle_count; i++)
+    for (yb_triangle_t i = 0; i < map->triangle_count; i++)
         yb_map_refine(map, i, YB_REFERENCE_Q8, take_highest, &summit);
     return summit;
 }

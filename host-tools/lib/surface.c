@@ -137,7 +137,7 @@ bool yb_mesh_from_map(yb_mesh_t *mesh, const yb_map_t *map, uint16_t longest_q8)
 {
     *mesh = (yb_mesh_t){0};
     weld_t weld = {.mesh = mesh, .map = map};
-    for (uint16_t i = 0; i < map->triangle_count; i++)
+    for (yb_triangle_t i = 0; i < map->triangle_count; i++)
         yb_map_refine(map, i, longest_q8, weld_triangle, &weld);
     free(weld.z_q8);
     free(weld.slot);

@@ -257,7 +257,7 @@ static void rubbish_is_refused_or_sound(void **state)
         size_t count = (size_t)rng_range(&rng, 1, 64);
         for (size_t i = 0; i < count; i++)
             bytes[i] = (uint8_t)rng_next(&rng);
-        bytes[0] = rng_one_in(&rng, 20) ? bytes[0] : 0x10;
+        bytes[0] = rng_one_in(&rng, 20) ? bytes[0] : 0x20;
         if (count > 14) { /* a header that gets somewhere */
             bytes[1] &= 0xf7;
             bytes[2] %= 6;

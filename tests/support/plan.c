@@ -263,7 +263,7 @@ void plan_mend(uint8_t *bytes, size_t count)
 
 static void put_header(const plan_t *plan, bits_t *bits)
 {
-    put(bits, 8, 0x10);
+    put(bits, 8, 0x20);
     for (int k = 0; k < 4; k++)
         put(bits, 1, plan->corner_height[k] >= 0 ? 1 : 0);
     put(bits, 2, plan->straight ? 1 : 0);

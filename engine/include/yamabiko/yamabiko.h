@@ -63,7 +63,7 @@ extern "C" {
 #define YB_VERSION_MINOR 1
 #define YB_VERSION_PATCH 0
 /* The one version of the format (bytes and reconstruction) that this engine reads. */
-#define YB_FORMAT_VERSION 1
+#define YB_FORMAT_VERSION 2
 
 /* --- Limits ----------------------------------------------------------------------------------- */
 
@@ -85,7 +85,7 @@ typedef enum {
     YB_ERR_TRUNCATED = -1, /* the code ends before its last byte */
     YB_ERR_CORRUPT = -2,   /* the check fails, or the contours cross, touch or repeat a point */
     YB_ERR_VERSION = -3,   /* another format version or profile than this engine reads */
-    YB_ERR_LIMIT = -4      /* a valid code for a bigger build: more than YB_MAX_VERTICES */
+    YB_ERR_LIMIT = -4      /* the mesh has more vertices than the build, or the code, allows */
 } yb_status_t;
 
 #if defined(__GNUC__)
@@ -125,8 +125,6 @@ typedef struct {
  * Triangles: counter-clockwise seen from above; they tile the frame without gap or overlap.
  */
 typedef struct {
-    yb_vertex_t vertex[YB_MAX_VERTICES];
-    yb_index_t triangle[YB_MAX_TRIANGLES][3];
     uint16_t vertex_count;
     yb_triangle_t triangle_count;
     uint16_t east_q8;  /* x of the frame's eastern side; the western one is 0 */
@@ -144,6 +142,8 @@ typedef struct {
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
+    yb_vertex_t vertex[YB_MAX_VERTICES];
+    yb_index_t triangle[YB_MAX_TRIANGLES][3];
 } yb_map_t;
 
 /* One contour of a code, as decoded. */
@@ -167,7 +167,6 @@ typedef struct {
  * for those who want to know how the map is built; all else is private.
  */
 typedef struct {
-    yb_contour_t contour[YB_MAX_CONTOURS];
     uint16_t contour_count;
     uint16_t region_count;
     uint16_t summit_count;   /* contour[contour_count ..] are so many summits that were added */
@@ -187,8 +186,9 @@ typedef struct {
     int32_t corner_height[4];
     int32_t frame_height;
     uint8_t header[16];
-    /* private: the triangulation */
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
+    yb_contour_t contour[YB_MAX_CONTOURS];
+    /* private: the triangulation */
     yb_entry_t neighbour[YB_MAX_TRIANGLES][3];
     yb_triangle_t region[YB_MAX_TRIANGLES];
     /* private: the rules */
@@ -214,6 +214,20 @@ YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint
  * YB_ERR_TRUNCATED if nothing else was.
  */
 YB_MUST_CHECK yb_status_t yb_map_end(yb_map_t *map, yb_load_t *load);
+
+/* Builds a map from contours that lie in no code, in full detail: for a build with a large
+ * YB_MAX_VERTICES. After yb_map_begin the caller sets
+ *
+ *     map:  east_q8, north_q8, cell, unit, base_m, hurst_q8m1, smooth, seed; vertex[0 .. N): the
+ *           contours' points with x_q8 and y_q8 multiples of 16 (1/16 step) and z_q8
+ *     load: contour_count, point_count = N; contour[0 .. contour_count): first, count; gain;
+ *           corner_height[4] (SW SE NE NW; left alone: from the lines that meet the frame) and
+ *           frame_height (where none does)
+ *
+ * by the rules of docs/SPEC.md 1.4. YB_OK, YB_ERR_CORRUPT: lines cross or touch, YB_ERR_LIMIT: the
+ * mesh would have more than YB_MAX_VERTICES.
+ */
+YB_MUST_CHECK yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load);
 
 /* All three at once, for a code that lies in one piece. */
 YB_MUST_CHECK yb_status_t yb_map_load(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
