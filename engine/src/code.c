@@ -187,6 +187,7 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
         status = mesh_triangulate(map, load);
     if (status == YB_OK)
         status = regions_find(map, load);
+    load->first_summit = map->vertex_count;
     if (status == YB_OK)
         status = summits_add(map, load);
     load->first_saddle = map->vertex_count;

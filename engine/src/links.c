@@ -1,9 +1,9 @@
 /* The edges that the papers want, and the points between peaks (faithful paper, 4, 5 and 7).
  *
- * All rules of a region speak of *peaks*: the spot heights beyond its lines, each behind one line of
- * the region. A peak may as well be the bottom of a pit: what counts is that the ground goes on in
- * the direction in which it crosses the region. Links are wishes: one that would cross a line or an
- * earlier link is not granted.
+ * All rules of a region speak of *peaks*: the spot heights beyond its lines, each behind one line
+ * of the region. A peak may as well be the bottom of a pit: what counts is that the ground goes on
+ * in the direction in which it crosses the region. Links are wishes: one that would cross a line or
+ * an earlier link is not granted.
  */
 #include "fix.h"
 #include "mesh.h"
@@ -125,7 +125,7 @@ static bool find_gap(const place_t *place, yb_index_t a, yb_index_t b, int line_
     mesh_walk_t walk;
     mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
     for (; step == WALK_CROSSES; step = mesh_walk_on(map, load, &walk)) {
-        if (mark_of(load, walk.t, walk.edge) != CONTOUR)
+        if (mark_of(load, walk.t, walk.edge) != YB_RULE_CONTOUR)
             continue;
         yb_index_t p = map->triangle[walk.t][walk.edge];
         yb_index_t q = map->triangle[walk.t][next3(walk.edge)];
@@ -164,7 +164,7 @@ static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
         }
     }
     return nearest < 0 ? YB_OK
-                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, SADDLE_LINK);
+                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
 }
 
 /* The triangle of the region that holds point p, strictly or on an edge that is not marked. */
@@ -189,14 +189,14 @@ static bool find_place(const place_t *place, yb_index_t p, yb_triangle_t *at, in
             continue;
         *at = t;
         *edge = on;
-        return zeros < 2 && (on < 0 || mark_of(place->load, t, on) == FREE);
+        return zeros < 2 && (on < 0 || mark_of(place->load, t, on) == YB_RULE_NONE);
     }
     return false;
 }
 
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
- * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each from
- * its peak to its line, it divides the gap as s_b : s_a.
+ * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
+ * from its peak to its line, it divides the gap as s_b : s_a.
  */
 static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
 {
@@ -351,13 +351,14 @@ static yb_status_t fan(const place_t *place, int line)
             continue;
         yb_index_t summit = load->contour[s].first;
         if (mesh_sees(place->map, load, p, summit) &&
-            mesh_force_edge(place->map, load, p, summit, FAN_LINK) != YB_OK)
+            mesh_force_edge(place->map, load, p, summit, YB_RULE_SUMMIT) != YB_OK)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
 }
 
-/* --- 4.2, 5.1 (3), 5.2: links down the slope --------------------------------------------------- */
+/* --- 4.2, 5.1 (3), 5.2: links down the slope ---------------------------------------------------
+ */
 
 /* The peak beyond other lines of the region that rules point p of height z: the steepest way to it
  * (tan θ), the ground going on beyond the line the way it goes to it. -1: none.
@@ -439,7 +440,7 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
         if (nearest < 0)
             return YB_OK;
         if (mesh_sees(map, load, p, (yb_index_t)nearest))
-            return mesh_force_edge(map, load, p, (yb_index_t)nearest, SLOPE_LINK);
+            return mesh_force_edge(map, load, p, (yb_index_t)nearest, YB_RULE_SLOPE);
         last = least;
         last_q = nearest;
     }
@@ -463,7 +464,8 @@ static bool is_outer(const place_t *place, int line)
     return c->open || (c->left == place->region) == turns_left(place->map, c);
 }
 
-/* ----------------------------------------------------------------------------------------------- */
+/* -----------------------------------------------------------------------------------------------
+ */
 
 static yb_status_t apply_rules(const place_t *place)
 {
@@ -501,4 +503,31 @@ yb_status_t links_add(yb_map_t *map, yb_load_t *load)
     }
     mesh_make_delaunay(map, load);
     return YB_OK;
+}
+
+yb_rule_t yb_vertex_rule(const yb_load_t *load, yb_index_t vertex)
+{
+    return vertex >= load->first_skeleton ? YB_RULE_SKELETON
+           : vertex >= load->first_saddle ? YB_RULE_SADDLE
+           : vertex >= load->first_summit ? YB_RULE_SUMMIT
+                                          : YB_RULE_CONTOUR;
+}
+
+yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t triangle, int edge)
+{
+    yb_index_t a = map->triangle[triangle][edge];
+    yb_index_t b = map->triangle[triangle][next3(edge)];
+    if (mark_of(load, triangle, edge) != YB_RULE_NONE)
+        return mark_of(load, triangle, edge);
+    /* The way that a branch of a skeleton takes, its beginning included. */
+    for (int k = 0; k < 2; k++) {
+        yb_index_t v = k == 0 ? a : b;
+        yb_index_t w = k == 0 ? b : a;
+        if (v < load->first_skeleton)
+            continue;
+        const yb_branch_t *branch = &load->branch[v];
+        if (branch->parent == w || (branch->meets && branch->other == w))
+            return YB_RULE_SKELETON;
+    }
+    return YB_RULE_NONE;
 }

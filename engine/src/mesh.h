@@ -5,7 +5,7 @@
  *
  * A triangle is three vertices, counter-clockwise; its edge i runs from corner i to corner i + 1,
  * and neighbour[t][i] is the triangle across it. An edge that must stay is *marked*, in both
- * neighbour entries, with what it stands for; a marked edge is never flipped nor crossed.
+ * neighbour entries, with the rule it stands for; a marked edge is never flipped nor crossed.
  */
 #ifndef YB_MESH_H
 #define YB_MESH_H
@@ -16,15 +16,6 @@ enum {
     UNKNOWN_HEIGHT = INT32_MIN,
     MARK_SHIFT = 8 * sizeof(yb_entry_t) - 4,
     NO_TRIANGLE = (1 << MARK_SHIFT) - 1 /* across the frame */
-};
-
-/* Why an edge must stay: the upper bits of a neighbour entry. */
-enum mark {
-    FREE = 0,
-    CONTOUR,    /* a segment of a line */
-    FAN_LINK,   /* from a summit to its line */
-    SADDLE_LINK /* from a link point to the lines it joins */,
-    SLOPE_LINK /* from a line to the next, down the slope */
 };
 
 static inline int next3(int i)
@@ -42,9 +33,10 @@ static inline yb_triangle_t neighbour_of(const yb_load_t *load, yb_triangle_t t,
     return load->neighbour[t][edge] & NO_TRIANGLE;
 }
 
-static inline enum mark mark_of(const yb_load_t *load, yb_triangle_t t, int edge)
+/* Why an edge must stay: the upper bits of a neighbour entry. */
+static inline yb_rule_t mark_of(const yb_load_t *load, yb_triangle_t t, int edge)
 {
-    return (enum mark)(load->neighbour[t][edge] >> MARK_SHIFT);
+    return (yb_rule_t)(load->neighbour[t][edge] >> MARK_SHIFT);
 }
 
 /* Which corner of triangle t vertex v is; v is one of them. */
@@ -95,7 +87,7 @@ void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p);
 
 /* Makes ab an edge with a mark; corrupt if a marked edge or a vertex is in its way. */
 YB_MUST_CHECK yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a,
-                                          yb_index_t b, enum mark mark);
+                                          yb_index_t b, yb_rule_t mark);
 
 /* Flips what is not marked until it is Delaunay. */
 void mesh_make_delaunay(yb_map_t *map, yb_load_t *load);
@@ -137,13 +129,13 @@ void relief_prepare(yb_map_t *map, const yb_load_t *load);
 
 /* The triangle after t (before t) in counter-clockwise order round vertex v, or NO_TRIANGLE. */
 static inline yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
-                                 yb_index_t v)
+                                      yb_index_t v)
 {
     return neighbour_of(load, t, prev3(corner_of(map, t, v)));
 }
 
 static inline yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
-                                  yb_index_t v)
+                                       yb_index_t v)
 {
     return neighbour_of(load, t, corner_of(map, t, v));
 }

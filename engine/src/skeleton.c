@@ -4,10 +4,10 @@
  * Where an edge of the mesh joins two points of one height and no contour runs along it, it bridges
  * a valley or cuts through a ridge. Its middle lies on the skeleton of the region, for the edges of
  * a Delaunay triangulation are chords of empty circles and the skeleton is where such circles have
- * their centres. So each of these edges is split at its middle, and the new points, from triangle to
- * triangle, are the skeleton. They are found by growing: from an edge with other ground on its far
- * side (the paper's canyon polygon: P there, Q and S its ends, M the middle of QS) into the flat
- * triangles behind it, which makes their other edges the next ones.
+ * their centres. So each of these edges is split at its middle, and the new points, from triangle
+ * to triangle, are the skeleton. They are found by growing: from an edge with other ground on its
+ * far side (the paper's canyon polygon: P there, Q and S its ends, M the middle of QS) into the
+ * flat triangles behind it, which makes their other edges the next ones.
  *
  * Heights: from where a branch began it falls (or rises) evenly towards its dead end, the longest
  * way first, or, where two branches meet, to half way between the heights: a saddle.
@@ -26,8 +26,8 @@ static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t 
 {
     yb_index_t a = map->triangle[t][i];
     yb_index_t b = map->triangle[t][next3(i)];
-    return mark_of(load, t, i) == FREE && a < load->first_skeleton && b < load->first_skeleton &&
-           map->vertex[a].z_q8 == map->vertex[b].z_q8;
+    return mark_of(load, t, i) == YB_RULE_NONE && a < load->first_skeleton &&
+           b < load->first_skeleton && map->vertex[a].z_q8 == map->vertex[b].z_q8;
 }
 
 /* The vertex across edge i of t; the edge is not on the frame. */
@@ -202,8 +202,7 @@ static void measure_ways(const yb_map_t *map, yb_load_t *load)
             yb_triangle_t t = first;
             do {
                 yb_index_t side = map->triangle[t][next3(corner_of(map, t, v))];
-                if (side < load->first_skeleton &&
-                    map->vertex[side].z_q8 == map->vertex[v].z_q8) {
+                if (side < load->first_skeleton && map->vertex[side].z_q8 == map->vertex[v].z_q8) {
                     uint32_t way = (uint32_t)length_between(map, v, side);
                     if (way > branch->way)
                         branch->way = way;
@@ -220,9 +219,7 @@ static void measure_ways(const yb_map_t *map, yb_load_t *load)
             uint32_t way = branch->way + (uint32_t)length_between(map, p, v);
             if (way > load->branch[p].way) {
                 load->branch[p].way = way;
-                load->branch[p].other = branch->meets ? v
-                                        : branch->other == v ? p
-                                                             : branch->other;
+                load->branch[p].other = branch->meets ? v : branch->other == v ? p : branch->other;
             }
         }
     }

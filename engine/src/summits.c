@@ -1,9 +1,9 @@
 /* A summit for every region that has none (faithful paper, section 3: "every peak has its summit").
  *
- * A region all of whose points lie at one height (the inside of an innermost contour, a ring between
- * two contours of one height, a corner that a line cuts off the frame) would be a plateau. It gets a
- * spot height at its widest place: a summit if the ground rises towards it from outside, the bottom
- * of a pit if it falls.
+ * A region all of whose points lie at one height (the inside of an innermost contour, a ring
+ * between two contours of one height, a corner that a line cuts off the frame) would be a plateau.
+ * It gets a spot height at its widest place: a summit if the ground rises towards it from outside,
+ * the bottom of a pit if it falls.
  */
 #include "fix.h"
 #include "mesh.h"
@@ -75,7 +75,7 @@ static int32_t rise_outside(const yb_map_t *map, const yb_load_t *load, yb_trian
     int64_t length = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3 && load->region[t] == region; i++) {
-            if (mark_of(load, t, i) != CONTOUR)
+            if (mark_of(load, t, i) != YB_RULE_CONTOUR)
                 continue;
             yb_index_t a = map->triangle[t][i];
             yb_index_t b = map->triangle[t][next3(i)];

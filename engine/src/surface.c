@@ -53,8 +53,8 @@ static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3]
         picked[i] = child[i] < 3 ? corner[child[i]] : &middle[child[i] - 3];
 }
 
-void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8, yb_triangle_fn fn,
-                   void *context)
+void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
+                   yb_triangle_fn fn, void *context)
 {
     surface_level_t levels[LEVELS];
     surface_level_t *level = levels;

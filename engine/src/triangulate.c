@@ -11,8 +11,8 @@
  */
 #include "mesh.h"
 
-static void put_triangle(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_index_t a, yb_index_t b,
-                         yb_index_t c)
+static void put_triangle(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_index_t a,
+                         yb_index_t b, yb_index_t c)
 {
     map->triangle[t][0] = a;
     map->triangle[t][1] = b;
@@ -21,7 +21,8 @@ static void put_triangle(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_ind
 }
 
 /* Edge i of t looks at `entry` (a triangle and a mark), and that triangle back at t. */
-static void link_edge(const yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i, yb_entry_t entry)
+static void link_edge(const yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i,
+                      yb_entry_t entry)
 {
     load->neighbour[t][i] = entry;
     yb_triangle_t u = entry & NO_TRIANGLE;
@@ -117,8 +118,8 @@ void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
 /* Finds the triangle that holds vertex p by walking towards it from t. In a Delaunay triangulation
  * such a walk never goes in circles. *edge: the edge p lies on, or -1.
  */
-static yb_triangle_t locate(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t p,
-                       int *edge)
+static yb_triangle_t locate(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
+                            yb_index_t p, int *edge)
 {
     for (;;) {
         *edge = -1;
@@ -243,7 +244,7 @@ static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t f
  * has ab as an edge already. NO_TRIANGLE: ab runs through another vertex.
  */
 static yb_triangle_t towards(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
-                        bool *is_edge)
+                             bool *is_edge)
 {
     yb_triangle_t first = first_at(map, load, a);
     yb_triangle_t t = first;
@@ -274,7 +275,7 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t 
     yb_index_t right_before = a;
     yb_index_t left_before = a;
     for (;;) {
-        if (mark_of(load, t, edge) != FREE)
+        if (mark_of(load, t, edge) != YB_RULE_NONE)
             return YB_ERR_CORRUPT; /* two contours cross */
         yb_triangle_t u = neighbour_of(load, t, edge);
         int j = corner_of(map, u, left);
@@ -309,7 +310,7 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t 
  * neighbours), until none is left between a and b. Each vertex leaves once: it always ends.
  */
 yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b,
-                            enum mark mark)
+                            yb_rule_t mark)
 {
     for (;;) {
         bool is_edge = false;
@@ -360,7 +361,7 @@ bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_inde
 {
     mesh_walk_t walk;
     mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
-    while (step == WALK_CROSSES && mark_of(load, walk.t, walk.edge) == FREE)
+    while (step == WALK_CROSSES && mark_of(load, walk.t, walk.edge) == YB_RULE_NONE)
         step = mesh_walk_on(map, load, &walk);
     return step == WALK_ENDS;
 }
@@ -373,7 +374,7 @@ static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
         for (int k = 0; k < edges && contour->count > 1; k++) {
             yb_index_t a = (yb_index_t)(contour->first + k);
             yb_index_t b = (yb_index_t)(contour->first + (k + 1) % contour->count);
-            if (mesh_force_edge(map, load, a, b, CONTOUR) != YB_OK)
+            if (mesh_force_edge(map, load, a, b, YB_RULE_CONTOUR) != YB_OK)
                 return YB_ERR_CORRUPT;
         }
     }

@@ -43,7 +43,7 @@ typedef struct {
     uint8_t corners;   /* coded corner heights: bit 0 SW, 1 SE, 2 NE, 3 NW; 0: one for the frame */
     uint16_t corner[YB_CORNERS];
     uint16_t frame; /* its height if no corner is coded */
-    int vertices; /* of the mesh, which only the engine can count; 0: not known yet */
+    int vertices;   /* of the mesh, which only the engine can count; 0: not known yet */
     int contour_count;
     int point_count;
     yb_paper_contour_t contour[YB_PAPER_CONTOURS];

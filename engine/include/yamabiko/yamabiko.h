@@ -99,7 +99,8 @@ const char *yb_status_text(yb_status_t status);
 
 /* --- The map ---------------------------------------------------------------------------------- */
 
-/* Numbers of vertices, contours and regions; of triangles; a triangle across an edge, with marks. */
+/* Numbers of vertices, contours and regions; of triangles; a triangle across an edge, with marks.
+ */
 #if YB_MAX_VERTICES <= 255
 typedef uint8_t yb_index_t;
 typedef uint16_t yb_triangle_t;
@@ -155,7 +156,7 @@ typedef struct {
     bool open;        /* its ends lie on the frame */
 } yb_contour_t;
 
-/* A point of the skeleton. Private to loading. */
+/* A point of a skeleton. Private to loading. */
 typedef struct {
     yb_index_t parent; /* the point it was reached from */
     yb_index_t other;  /* the second one, where two branches meet; later, the branch's end */
@@ -170,7 +171,8 @@ typedef struct {
     uint16_t contour_count;
     uint16_t region_count;
     uint16_t summit_count;   /* contour[contour_count ..] are so many summits that were added */
-    uint16_t first_saddle;   /* vertices from here on are link points … */
+    uint16_t first_summit;   /* vertices from here on are summits that were added … */
+    uint16_t first_saddle;   /* … from here on link points … */
     uint16_t first_skeleton; /* … and from here on points of skeletons */
     /* private: the decoder */
     uint8_t state;
@@ -197,6 +199,23 @@ typedef struct {
     yb_branch_t branch[YB_MAX_VERTICES];
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
 } yb_load_t;
+
+/* Why a point or an edge of the mesh is there (docs/SPEC.md 2). */
+typedef enum {
+    YB_RULE_NONE,    /* an edge that completes the triangulation */
+    YB_RULE_CONTOUR, /* coded: a point, or a segment of a line; the frame's corners too */
+    YB_RULE_SUMMIT,  /* the summit of a region that has none; an edge from a summit to its line */
+    YB_RULE_SADDLE,  /* between two peaks; an edge to the lines it joins */
+    YB_RULE_SLOPE,   /* an edge down the slope, from line to line */
+    YB_RULE_SKELETON /* along the middle of a valley or a ridge */
+} yb_rule_t;
+
+/* For those who want to look; load must be as yb_map_feed or yb_map_build left it. */
+yb_rule_t yb_vertex_rule(const yb_load_t *load, yb_index_t vertex);
+
+/* Of the edge from corner `edge` of a triangle to the next one. */
+yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t triangle,
+                       int edge);
 
 /* Starts a code. Both structs may hold anything before; map is undefined until YB_OK. */
 void yb_map_begin(yb_map_t *map, yb_load_t *load);
@@ -250,8 +269,8 @@ typedef void (*yb_triangle_fn)(void *context, const yb_vertex_t *a, const yb_ver
  * became. All triangles of a map, refined to one length, fit together without cracks.
  * YB_REFERENCE_Q8 gives the reference surface, 65535 the base triangle itself.
  */
-void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8, yb_triangle_fn fn,
-                   void *context);
+void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
+                   yb_triangle_fn fn, void *context);
 
 /* A coded unit (12 bits of mantissa, 4 of exponent) in 1/64 m: mantissa << exponent. */
 static inline uint32_t yb_unit_64th_m(uint16_t coded)
