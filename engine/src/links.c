@@ -202,10 +202,8 @@ static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
 /* Is t flat ground between two lines? */
 static bool is_shelf(const place_t *place, yb_triangle_t t, int line_a, int line_b)
 {
-    const yb_vertex_t *v = place->map->vertex;
-    const yb_index_t *corner = place->map->triangle[t];
-    return v[corner[0]].z_q8 == v[corner[1]].z_q8 && v[corner[0]].z_q8 == v[corner[2]].z_q8 &&
-           has_corner_on(place, t, line_a) && has_corner_on(place, t, line_b);
+    return is_flat(place->map, t) && has_corner_on(place, t, line_a) &&
+           has_corner_on(place, t, line_b);
 }
 
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
@@ -335,18 +333,30 @@ static yb_status_t join_peaks(const place_t *place)
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
 
-/* The spot height in the region whose slope rules point p: the steepest way to it. -1: none. */
-static int ruler_inside(const place_t *place, yb_index_t p)
+/* The peak whose slope rules point p: the steepest way up from p, or down to a pit (tan θ, 5.1). In
+ * a leaf (line < 0) one of those in it; else one beyond another line, if the ground goes on there
+ * the way it goes to that line. -1: none.
+ */
+static int ruler_of(const place_t *place, yb_index_t p, int line)
 {
     const yb_load_t *load = place->load;
+    int32_t z = place->map->vertex[p].z_q8;
     int ruler = -1;
     int64_t rise = 0;
     int64_t run = 1;
     for (int s = 0; s < all_contours(load); s++) {
-        if (is_line(&load->contour[s]) || load->contour[s].left != place->region)
+        const yb_contour_t *spot = &load->contour[s];
+        int32_t top = first_of(place, s)->z_q8;
+        if (is_line(spot) || (line < 0) != (spot->left == place->region))
             continue;
-        int64_t up = fix_abs(first_of(place, s)->z_q8 - place->map->vertex[p].z_q8);
-        int64_t along = edge_length(place->map, p, load->contour[s].first);
+        if (line >= 0) {
+            int before = line_before(place, s);
+            int32_t h = before == NOWHERE ? z : first_of(place, before)->z_q8;
+            if (before == line || h == z || top == h || (h > z) != (top > h))
+                continue;
+        }
+        int64_t up = fix_abs(top - z);
+        int64_t along = edge_length(place->map, p, spot->first);
         if (up * run > rise * along) {
             ruler = s;
             rise = up;
@@ -362,18 +372,16 @@ static int ruler_inside(const place_t *place, yb_index_t p)
 static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
 {
     const yb_map_t *map = place->map;
+    const yb_load_t *load = place->load;
     int32_t far = edge_length(map, p, summit);
-    yb_triangle_t first = first_at(map, place->load, p);
-    yb_triangle_t t = first;
-    do {
+    yb_triangle_t first = first_at(map, load, p);
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
         int at = corner_of(map, t, p);
         yb_index_t q = map->triangle[t][next3(at)];
-        if (place->load->region[t] == place->region &&
-            mark_of(place->load, t, at) == YB_RULE_NONE &&
+        if (load->region[t] == place->region && mark_of(load, t, at) == YB_RULE_NONE &&
             map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
             return true;
-        t = turn_left(map, place->load, t, p);
-    } while (t != NO_TRIANGLE && t != first);
+    }
     return false;
 }
 
@@ -386,7 +394,7 @@ static yb_status_t fan(const place_t *place, int line)
     const yb_contour_t *contour = &load->contour[line];
     for (int k = 0; k < contour->count; k++) {
         yb_index_t p = (yb_index_t)(contour->first + k);
-        int s = ruler_inside(place, p);
+        int s = ruler_of(place, p, -1);
         yb_index_t summit = s < 0 ? p : load->contour[s].first;
         load->branch[p].parent = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
     }
@@ -402,35 +410,6 @@ static yb_status_t fan(const place_t *place, int line)
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ---------------------------------------------------
  */
-
-/* The peak beyond other lines of the region that rules point p of height z: the steepest way to it
- * (tan θ), the ground going on beyond the line the way it goes to it. -1: none.
- */
-static int ruler_beyond(const place_t *place, yb_index_t p, int line)
-{
-    const yb_load_t *load = place->load;
-    int32_t z = place->map->vertex[p].z_q8;
-    int ruler = -1;
-    int64_t rise = 0;
-    int64_t run = 1;
-    for (int s = 0; s < all_contours(load); s++) {
-        int before = line_before(place, s);
-        if (before == NOWHERE || before == line)
-            continue;
-        int32_t h = first_of(place, before)->z_q8;
-        int32_t top = first_of(place, s)->z_q8;
-        if (h == z || (h > z) != (top > h) || top == h)
-            continue;
-        int64_t up = fix_abs(top - z);
-        int64_t along = edge_length(place->map, p, load->contour[s].first);
-        if (ruler < 0 || up * run > rise * along) {
-            ruler = s;
-            rise = up;
-            run = along;
-        }
-    }
-    return ruler;
-}
 
 /* Distance of point p from the segment ab, in 1/64 steps. */
 static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
@@ -488,7 +467,7 @@ static int nearest_to_slope(const place_t *place, yb_index_t p, yb_index_t peak,
 static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
 {
     yb_load_t *load = place->load;
-    int s = ruler_beyond(place, p, line);
+    int s = ruler_of(place, p, line);
     if (s < 0)
         return YB_OK;
     yb_index_t peak = load->contour[s].first;

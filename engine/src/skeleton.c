@@ -24,10 +24,11 @@ static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t 
 }
 
 /* The vertex across edge i of t; the edge is not on the frame. */
-static yb_index_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
+static yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
 {
-    yb_triangle_t u = neighbour_of(load, t, i);
-    return map->triangle[u][prev3(corner_of(map, u, map->triangle[t][next3(i)]))];
+    int apex = 0;
+    yb_triangle_t u = across(map, load, t, i, &apex);
+    return map->triangle[u][apex];
 }
 
 /* Splits edge i of t, and says what its middle is reached from; its height is that of the edge
@@ -73,16 +74,14 @@ static uint32_t steepness(const yb_map_t *map, const yb_load_t *load, yb_index_t
     int32_t up = map->vertex[p].z_q8 - map->vertex[m].z_q8;
     int64_t slope = 0;
     yb_triangle_t first = first_at(map, load, p);
-    yb_triangle_t t = first;
-    do {
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
         yb_index_t q = map->triangle[t][next3(corner_of(map, t, p))];
         int32_t on = map->vertex[q].z_q8 - map->vertex[p].z_q8;
         if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
             int64_t steep = ((int64_t)fix_abs(on) << 8) / edge_length(map, p, q);
             slope = steep > slope ? steep : slope;
         }
-        t = turn_left(map, load, t, p);
-    } while (t != NO_TRIANGLE && t != first);
+    }
     if (slope == 0)
         slope = ((int64_t)fix_abs(up) << 8) / edge_length(map, p, m);
     return (uint32_t)(slope < 1 ? 1 : slope > 1 << 14 ? 1 << 14 : slope);
@@ -110,7 +109,7 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
             int32_t up = p < load->first_skeleton ? map->vertex[p].z_q8 - h : 0;
             if (up == 0)
                 continue;
-            yb_index_t q = across(map, load, t, i);
+            yb_index_t q = apex_across(map, load, t, i);
             int32_t up_q = map->vertex[q].z_q8 - h;
             yb_index_t m = (yb_index_t)map->vertex_count;
             if (q < load->first_skeleton && up_q != 0) {
@@ -132,16 +131,14 @@ static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v
                         int *edge)
 {
     yb_triangle_t first = first_at(map, load, v);
-    yb_triangle_t t = first;
-    do {
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         int i = next3(corner_of(map, t, v));
         if (is_bridge(map, load, t, i)) {
             *at = t;
             *edge = i;
             return true;
         }
-        t = turn_left(map, load, t, v);
-    } while (t != NO_TRIANGLE && t != first);
+    }
     return false;
 }
 
@@ -156,7 +153,7 @@ static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
         yb_index_t m = (yb_index_t)map->vertex_count;
         yb_index_t q = v;
         if (neighbour_of(load, t, i) != NO_TRIANGLE) {
-            q = across(map, load, t, i);
+            q = apex_across(map, load, t, i);
             if (q < load->first_skeleton &&
                 map->vertex[q].z_q8 == map->vertex[map->triangle[t][i]].z_q8)
                 q = m; /* flat ground: it will grow on */
@@ -223,13 +220,11 @@ static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_in
 {
     int32_t way = 0;
     yb_triangle_t first = first_at(map, load, v);
-    yb_triangle_t t = first;
-    do {
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         yb_index_t side = map->triangle[t][next3(corner_of(map, t, v))];
         if (side < load->first_skeleton && map->vertex[side].z_q8 == map->vertex[v].z_q8)
             way = fix_max(way, edge_length(map, v, side));
-        t = turn_left(map, load, t, v);
-    } while (t != NO_TRIANGLE && t != first);
+    }
     return (uint32_t)way;
 }
 

@@ -20,13 +20,6 @@ yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint1
     return YB_OK;
 }
 
-static bool is_flat(const yb_map_t *map, yb_triangle_t t)
-{
-    const yb_index_t *v = map->triangle[t];
-    return map->vertex[v[0]].z_q8 == map->vertex[v[1]].z_q8 &&
-           map->vertex[v[0]].z_q8 == map->vertex[v[2]].z_q8;
-}
-
 /* --- How high ------------------------------------------------------------------------------------
  */
 
@@ -82,10 +75,9 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
         for (int i = 0; i < 3; i++) {
             if (mark_of(load, t, i) != YB_RULE_CONTOUR)
                 continue;
-            yb_triangle_t u = neighbour_of(load, t, i);
-            const yb_index_t *w = map->triangle[u];
-            yb_index_t apex = w[prev3(corner_of(map, u, v[next3(i)]))];
-            int32_t up = map->vertex[v[i]].z_q8 - map->vertex[apex].z_q8;
+            int apex = 0;
+            const yb_index_t *w = map->triangle[across(map, load, t, i, &apex)];
+            int32_t up = map->vertex[v[i]].z_q8 - map->vertex[w[apex]].z_q8;
             int64_t length = edge_length(map, v[i], v[next3(i)]);
             found->length += length;
             if (up == 0)
@@ -186,12 +178,12 @@ static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triang
     }
     if (spot.beyond)
         return spot;
-    yb_triangle_t u = neighbour_of(load, spot.t, spot.edge);
-    int j = corner_of(map, u, map->triangle[spot.t][next3(spot.edge)]);
+    int apex = 0;
+    yb_triangle_t u = across(map, load, spot.t, spot.edge, &apex);
     if (is_acute(map, spot.t, prev3(spot.edge)))
         spot.beyond = true;
-    else if (is_acute(map, u, prev3(j)))
-        spot = (spot_t){u, j, true};
+    else if (is_acute(map, u, apex))
+        spot = (spot_t){u, next3(apex), true};
     return spot;
 }
 
