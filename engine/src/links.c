@@ -8,7 +8,8 @@
 #include "mesh.h"
 
 enum {
-    NOWHERE = YB_MAX_CONTOURS /* no line leads to this region */
+    NOWHERE = YB_MAX_CONTOURS, /* no line leads to this region */
+    OUTSIDE = 3                /* of a triangle */
 };
 
 /* A region while its rules are applied; load->scratch[r] is the line that leads to region r. */
@@ -160,34 +161,6 @@ static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
                        : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
 }
 
-/* The triangle of the region that holds point p, strictly or on an edge that is not marked. */
-static bool find_place(const place_t *place, const yb_vertex_t *p, yb_triangle_t *at, int *edge)
-{
-    const yb_map_t *map = place->map;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        if (place->load->region[t] != place->region)
-            continue;
-        int on = -1;
-        int zeros = 0;
-        bool out = false;
-        for (int i = 0; i < 3 && !out; i++) {
-            int32_t side = area_of(&map->vertex[map->triangle[t][i]],
-                                   &map->vertex[map->triangle[t][next3(i)]], p);
-            out = side < 0;
-            if (side == 0) {
-                on = i;
-                zeros++;
-            }
-        }
-        if (out)
-            continue;
-        *at = t;
-        *edge = on;
-        return zeros < 2 && (on < 0 || mark_of(place->load, t, on) == YB_RULE_NONE);
-    }
-    return false;
-}
-
 static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
 {
     const yb_contour_t *c = &place->load->contour[line];
@@ -199,11 +172,34 @@ static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
     return false;
 }
 
-/* Is t flat ground between two lines? */
-static bool is_shelf(const place_t *place, yb_triangle_t t, int line_a, int line_b)
+/* Where p lies in triangle t: -1: inside, 0 to 2: on this edge, which is not marked, OUTSIDE. */
+static int side_in(const place_t *place, yb_triangle_t t, const yb_vertex_t *p)
 {
-    return is_flat(place->map, t) && has_corner_on(place, t, line_a) &&
-           has_corner_on(place, t, line_b);
+    const yb_vertex_t *v = place->map->vertex;
+    int on = -1;
+    for (int i = 0; i < 3; i++) {
+        int32_t side =
+            area_of(&v[place->map->triangle[t][i]], &v[place->map->triangle[t][next3(i)]], p);
+        if (side < 0 || (side == 0 && (on >= 0 || mark_of(place->load, t, i) != YB_RULE_NONE)))
+            return OUTSIDE;
+        if (side == 0)
+            on = i;
+    }
+    return on;
+}
+
+/* The flat triangle between two lines that holds point p. */
+static bool find_shelf(const place_t *place, const yb_vertex_t *p, int line_a, int line_b,
+                       yb_triangle_t *at, int *edge)
+{
+    for (yb_triangle_t t = 0; t < place->map->triangle_count; t++) {
+        *at = t;
+        *edge = side_in(place, t, p);
+        if (*edge != OUTSIDE && is_flat(place->map, t) && has_corner_on(place, t, line_a) &&
+            has_corner_on(place, t, line_b))
+            return true;
+    }
+    return false;
 }
 
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
@@ -239,7 +235,7 @@ static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, boo
     yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
     yb_triangle_t t = 0;
     int edge = -1;
-    if (!find_place(place, &link, &t, &edge) || !is_shelf(place, t, line_a, line_b))
+    if (!find_shelf(place, &link, line_a, line_b, &t, &edge))
         return YB_OK;
     yb_index_t m = (yb_index_t)map->vertex_count;
     if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, z) != YB_OK)
@@ -532,10 +528,25 @@ static yb_status_t apply_rules(const place_t *place)
     return YB_OK;
 }
 
+/* Does an earlier line, or the left side of this one, bound the region too? */
+static bool seen_before(const yb_load_t *load, int side, yb_index_t region)
+{
+    for (int k = 0; k < side; k++) {
+        const yb_contour_t *c = &load->contour[k >> 1];
+        if (is_line(c) && ((k & 1) == 0 ? c->left : c->right) == region)
+            return true;
+    }
+    return false;
+}
+
 yb_status_t links_add(yb_map_t *map, yb_load_t *load)
 {
-    for (int r = 0; r < load->region_count; r++) {
-        place_t place = {map, load, (yb_index_t)r};
+    /* Regions in the order of the lines that bound them, the left one first. */
+    for (int side = 0; side < 2 * load->contour_count; side++) {
+        const yb_contour_t *c = &load->contour[side >> 1];
+        place_t place = {map, load, (side & 1) == 0 ? c->left : c->right};
+        if (!is_line(c) || seen_before(load, side, place.region))
+            continue;
         if (apply_rules(&place) != YB_OK)
             return YB_ERR_LIMIT;
     }

@@ -95,30 +95,80 @@ static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_i
     return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
 }
 
+/* The edges of the mesh in a fixed order, however its triangles are numbered. */
+typedef struct {
+    yb_index_t low, high;
+    yb_triangle_t t;
+    int edge;
+} bridge_t;
+
+static bool comes_before(const bridge_t *a, const bridge_t *b)
+{
+    return a->low < b->low || (a->low == b->low && a->high < b->high);
+}
+
+static bridge_t bridge_at(const yb_map_t *map, yb_triangle_t t, int i)
+{
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    return (bridge_t){a < b ? a : b, a < b ? b : a, t, i};
+}
+
+/* Is the bridge, seen from its triangle's third corner, one where a branch begins? If so, *other is
+ * the second point that it is reached from, or the new point m itself.
+ */
+static bool begins_branch(const yb_map_t *map, const yb_load_t *load, const bridge_t *bridge,
+                          yb_index_t m, yb_index_t *other)
+{
+    int32_t h = map->vertex[bridge->low].z_q8;
+    yb_index_t p = map->triangle[bridge->t][prev3(bridge->edge)];
+    int32_t up = map->vertex[p].z_q8 - h;
+    if (p >= load->first_skeleton || up == 0 ||
+        neighbour_of(load, bridge->t, bridge->edge) == NO_TRIANGLE)
+        return false;
+    yb_index_t q = apex_across(map, load, bridge->t, bridge->edge);
+    int32_t up_q = map->vertex[q].z_q8 - h;
+    /* A point of another branch has no height of its own yet. */
+    *other = q >= load->first_skeleton || up_q != 0 ? q : m;
+    return up_q == 0 || (up > 0) == (up_q > 0); /* else the ground goes on falling */
+}
+
 /* Branches begin at bridges that have a point of another height on one side, and on the other flat
- * ground, or another such point: then a bridge is all there is.
+ * ground, or another such point: then a bridge is all there is. In the order of their ends'
+ * numbers.
  */
 static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 {
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++) {
-            yb_index_t p = map->triangle[t][prev3(i)];
-            if (!is_bridge(map, load, t, i) || neighbour_of(load, t, i) == NO_TRIANGLE)
-                continue;
-            int32_t h = map->vertex[map->triangle[t][i]].z_q8;
-            int32_t up = p < load->first_skeleton ? map->vertex[p].z_q8 - h : 0;
-            if (up == 0)
-                continue;
-            yb_index_t q = apex_across(map, load, t, i);
-            int32_t up_q = map->vertex[q].z_q8 - h;
+    for (int low = 0; low < load->first_skeleton; low++) {
+        for (;;) {
+            yb_index_t v = (yb_index_t)low;
             yb_index_t m = (yb_index_t)map->vertex_count;
-            if (q < load->first_skeleton && up_q != 0) {
-                if ((up > 0) != (up_q > 0))
-                    continue; /* the ground goes on falling: no bridge */
-            } else if (q < load->first_skeleton) {
-                q = m;
+            yb_index_t other = m;
+            bridge_t next = {.high = v};
+            yb_triangle_t first = first_at(map, load, v);
+            for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
+                /* Both edges at v: a bridge may be one of either of its triangles. */
+                for (int k = 0; k < 2; k++) {
+                    int i = k == 0 ? corner_of(map, t, v) : prev3(corner_of(map, t, v));
+                    bridge_t bridge = bridge_at(map, t, i);
+                    yb_index_t q = m;
+                    if (bridge.low == v && is_bridge(map, load, t, i) &&
+                        (next.high == v || bridge.high < next.high) &&
+                        begins_branch(map, load, &bridge, m, &q)) {
+                        next = bridge;
+                        other = q;
+                    }
+                }
             }
-            if (split_bridge(map, load, t, i, p, q) != YB_OK)
+            if (next.high == v)
+                break;
+            yb_index_t p = map->triangle[next.t][prev3(next.edge)];
+            if (other < p) { /* the bridge is one of either side: the same from both */
+                yb_index_t swap = p;
+                p = other;
+                other = swap;
+            }
+            if (split_bridge(map, load, next.t, next.edge, p, other) != YB_OK)
                 return YB_ERR_LIMIT;
             load->branch[m].way = add_way(map, 0, steepness(map, load, m), p, m);
         }
@@ -127,19 +177,19 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 }
 
 /* The next bridge that point v looks at. */
-static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, yb_triangle_t *at,
-                        int *edge)
+static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
 {
+    bool found = false;
     yb_triangle_t first = first_at(map, load, v);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         int i = next3(corner_of(map, t, v));
-        if (is_bridge(map, load, t, i)) {
-            *at = t;
-            *edge = i;
-            return true;
+        bridge_t bridge = bridge_at(map, t, i);
+        if (is_bridge(map, load, t, i) && (!found || comes_before(&bridge, next))) {
+            found = true;
+            *next = bridge;
         }
     }
-    return false;
+    return found;
 }
 
 /* Splits all bridges that v looks at. One on the frame counts as met by its mirror image. */
@@ -147,9 +197,10 @@ static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
 {
     int32_t unused = 0;
     uint32_t weight = steepness(map, load, beginning_of(map, load, v, &unused));
-    yb_triangle_t t = 0;
-    int i = 0;
-    while (find_bridge(map, load, v, &t, &i)) {
+    bridge_t bridge = {0};
+    while (find_bridge(map, load, v, &bridge)) {
+        yb_triangle_t t = bridge.t;
+        int i = bridge.edge;
         yb_index_t m = (yb_index_t)map->vertex_count;
         yb_index_t q = v;
         if (neighbour_of(load, t, i) != NO_TRIANGLE) {

@@ -127,15 +127,25 @@ typedef struct {
     bool beyond;
 } spot_t;
 
-static int longest_edge(const yb_map_t *map, yb_triangle_t t)
+/* An edge's length and its ends, to find the longest, of equal ones that with the lowest numbers.
+ */
+typedef struct {
+    int32_t length;
+    yb_index_t low, high;
+} rank_t;
+
+static rank_t rank_of(const yb_map_t *map, yb_triangle_t t, int i)
 {
-    const yb_index_t *v = map->triangle[t];
-    int longest = 0;
-    for (int i = 1; i < 3; i++) {
-        if (edge_length(map, v[i], v[next3(i)]) > edge_length(map, v[longest], v[next3(longest)]))
-            longest = i;
-    }
-    return longest;
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    return (rank_t){edge_length(map, a, b), a < b ? a : b, a < b ? b : a};
+}
+
+static bool ranks_above(rank_t a, rank_t b)
+{
+    if (a.length != b.length)
+        return a.length > b.length;
+    return a.low < b.low || (a.low == b.low && a.high < b.high);
 }
 
 /* Is the angle at corner i acute? Plan differences are below 2^16: each product below 2^32. */
@@ -150,29 +160,20 @@ static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
 }
 
 /* The widest place of a region: the middle of the longest edge that no line runs along, for that is
- * the chord of an empty circle. If one of the two triangles at it is acute, the circle's centre
- * lies in that triangle, and a point in it is better. A region of one triangle has its point
- * inside.
+ * the chord of an empty circle. If just one of the two triangles at it is acute, the circle's
+ * centre lies in that one, and so does the place. A region of one triangle has its place inside.
  */
 static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region)
 {
     spot_t spot = {.beyond = true};
-    int32_t widest = -1;
+    rank_t best = {.length = -1};
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        if (load->region[t] != region)
-            continue;
-        if (widest < 0) {
-            spot.t = t;
-            spot.edge = longest_edge(map, t);
-            widest = 0;
-        }
-        for (int i = 0; i < 3; i++) {
-            int32_t wide = edge_length(map, map->triangle[t][i], map->triangle[t][next3(i)]);
-            if (load->neighbour[t][i] < NO_TRIANGLE && wide > widest) {
-                spot.t = t;
-                spot.edge = i;
-                spot.beyond = false;
-                widest = wide;
+        for (int i = 0; i < 3 && load->region[t] == region; i++) {
+            rank_t rank = rank_of(map, t, i);
+            bool alone = load->neighbour[t][i] >= NO_TRIANGLE;
+            if (alone != spot.beyond ? spot.beyond : ranks_above(rank, best)) {
+                spot = (spot_t){t, i, alone};
+                best = rank;
             }
         }
     }
@@ -180,14 +181,17 @@ static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triang
         return spot;
     int apex = 0;
     yb_triangle_t u = across(map, load, spot.t, spot.edge, &apex);
-    if (is_acute(map, spot.t, prev3(spot.edge)))
-        spot.beyond = true;
-    else if (is_acute(map, u, apex))
+    bool here = is_acute(map, spot.t, prev3(spot.edge));
+    bool there = is_acute(map, u, apex);
+    if (there && !here)
         spot = (spot_t){u, next3(apex), true};
+    else if (here && !there)
+        spot.beyond = true;
     return spot;
 }
 
-/* --- */
+/* ------------------------------------------------------------------------------------------------
+ */
 
 static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot, int32_t z)
 {
