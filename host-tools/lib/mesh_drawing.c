@@ -152,7 +152,10 @@ static int32_t *lower_sides(const plan_t *plan)
                 map->vertex[map->triangle[t][(edge + 2) % 3]].z_q8 - map->vertex[a].z_q8;
             const int falls = (rise < 0) - (rise > 0);
             const yb_contour_t *contour = &load->contour[i];
-            lower[i] += next_point(contour, a - contour->first) == b ? falls : -falls;
+            /* in the line's direction, or, of two points, not back */
+            const bool along = contour->open ? b == a + 1
+                                             : next_point(contour, a - contour->first) == b;
+            lower[i] += along ? falls : -falls;
         }
     }
     free(contour_of);
@@ -436,15 +439,15 @@ static void write_heights(plan_t *plan)
         if (load->contour[i].count == 1)
             block_point(plan, &map->vertex[load->contour[i].first], 9);
     for (uint16_t v = load->first_summit; added && v < map->vertex_count; v++)
-        block_point(plan, &map->vertex[v], 6 * plan->thin);
+        block_point(plan, &map->vertex[v], 4 * plan->thin);
     for (uint16_t i = 0; i < load->contour_count; i++)
         if (load->contour[i].count == 1)
-            label_point(plan, &map->vertex[load->contour[i].first], 11, 6, BLACK, true);
+            label_point(plan, &map->vertex[load->contour[i].first], 11, 8, BLACK, true);
     for (uint16_t i = 0; i < load->contour_count; i++)
         if (load->contour[i].count > 1)
             label_contour(plan, &load->contour[i]);
     for (uint16_t v = load->first_summit; added && v < map->vertex_count; v++)
-        label_point(plan, &map->vertex[v], 8, 4, rules[yb_vertex_rule(load, (yb_index_t)v)].colour,
+        label_point(plan, &map->vertex[v], 8, 6, rules[yb_vertex_rule(load, (yb_index_t)v)].colour,
                     false);
 }
 
