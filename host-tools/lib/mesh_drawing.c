@@ -153,8 +153,8 @@ static int32_t *lower_sides(const plan_t *plan)
             const int falls = (rise < 0) - (rise > 0);
             const yb_contour_t *contour = &load->contour[i];
             /* in the line's direction, or, of two points, not back */
-            const bool along = contour->open ? b == a + 1
-                                             : next_point(contour, a - contour->first) == b;
+            const bool along =
+                contour->open ? b == a + 1 : next_point(contour, a - contour->first) == b;
             lower[i] += along ? falls : -falls;
         }
     }
