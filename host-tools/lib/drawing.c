@@ -17,7 +17,7 @@ struct yb_drawing {
     cairo_t *cairo; /* … or this */
     double left, top, scale;
     yb_ink_t ink;
-    bool placed;    /* SVG: a group is open */
+    bool grouped;   /* SVG: a group in the units of the place is open */
     bool in_path;   /* SVG: a path's data are open; Cairo: there is something to paint */
     char head[256]; /* SVG: the path's beginning, written when it has a point */
 };
@@ -155,19 +155,31 @@ static void end_path(yb_drawing_t *drawing)
     drawing->in_path = false;
 }
 
+static void end_group(yb_drawing_t *drawing)
+{
+    if (drawing->grouped)
+        fputs("</g>\n", drawing->svg);
+    drawing->grouped = false;
+}
+
+static void begin_group(yb_drawing_t *drawing)
+{
+    const bool placed = drawing->scale != 1 || drawing->left != 0 || drawing->top != 0;
+    if (!drawing->grouped && placed)
+        fprintf(drawing->svg, "<g transform=\"translate(%s %s) scale(%s)\">\n",
+                place(drawing->left).text, place(drawing->top).text,
+                number(drawing->scale, 6).text);
+    drawing->grouped = placed;
+}
+
 void yb_drawing_place(yb_drawing_t *drawing, double left, double top, double scale)
 {
     end_path(drawing);
+    if (drawing->cairo == NULL)
+        end_group(drawing);
     drawing->left = left;
     drawing->top = top;
     drawing->scale = scale;
-    if (drawing->cairo != NULL)
-        return;
-    if (drawing->placed)
-        fputs("</g>\n", drawing->svg);
-    drawing->placed = true;
-    fprintf(drawing->svg, "<g transform=\"translate(%s %s) scale(%s)\">\n", place(left).text,
-            place(top).text, number(scale, 6).text);
 }
 
 static void write_colour(char text[8], int32_t colour)
@@ -201,6 +213,7 @@ static void next_line(yb_drawing_t *drawing)
         if (drawing->in_path)
             paint(drawing);
     } else {
+        begin_group(drawing);
         fputs(drawing->in_path ? "\n" : drawing->head, drawing->svg);
     }
     drawing->in_path = true;
@@ -293,12 +306,13 @@ void yb_drawing_text(yb_drawing_t *drawing, const yb_label_t *label, const char 
         paint_text(drawing, label, text);
         return;
     }
+    end_group(drawing); /* browsers want letters in pixels */
     FILE *svg = drawing->svg;
     char colour[8];
     write_colour(colour, label->colour);
-    const number_t x = place(label->x), y = place(label->y);
+    const number_t x = place(page_x(drawing, label->x)), y = place(page_y(drawing, label->y));
     fprintf(svg, "<text x=\"%s\" y=\"%s\" font-size=\"%s\" fill=\"%s\"%s", x.text, y.text,
-            pixels(drawing, label->size).text, colour, anchor[label->anchor]);
+            place(label->size).text, colour, anchor[label->anchor]);
     if (label->bold)
         fputs(" font-weight=\"bold\"", svg);
     if (label->turned != 0)
@@ -306,8 +320,7 @@ void yb_drawing_text(yb_drawing_t *drawing, const yb_label_t *label, const char 
                 y.text);
     if (label->halo != YB_NO_INK) {
         write_colour(colour, label->halo);
-        fprintf(svg, " paint-order=\"stroke\" stroke=\"%s\" stroke-width=\"%s\"", colour,
-                pixels(drawing, 3).text);
+        fprintf(svg, " paint-order=\"stroke\" stroke=\"%s\" stroke-width=\"3\"", colour);
     }
     fputc('>', svg);
     write_escaped(svg, text);
@@ -316,7 +329,8 @@ void yb_drawing_text(yb_drawing_t *drawing, const yb_label_t *label, const char 
 
 static bool end_svg(yb_drawing_t *drawing)
 {
-    fputs(drawing->placed ? "</g>\n</svg>\n" : "</svg>\n", drawing->svg);
+    end_group(drawing);
+    fputs("</svg>\n", drawing->svg);
     const bool good = ferror(drawing->svg) == 0;
     return fclose(drawing->svg) == 0 && good;
 }

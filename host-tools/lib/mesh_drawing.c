@@ -32,7 +32,7 @@ static const struct {
 } rules[RULES] = {
     {"none", "none points", "completing edges", 0x8c8c8c, 0.5},
     {"contour", "contour points", "coded, and corners", 0x5b3a1e, 1.4},
-    {"summit", "summit points", "summits and fans", 0xd7191c, 0.9},
+    {"summit", "summit points", "summits, pits, fans", 0xd7191c, 0.9},
     {"saddle", "saddle points", "links between peaks", 0x7b2fbf, 1.3},
     {"slope", "slope points", "links down the slope", 0xe08a00, 0.9},
     {"skeleton", "skeleton points", "valleys and ridges", 0x1565d8, 1.2},
@@ -434,7 +434,7 @@ static void write_heights(plan_t *plan)
 {
     const yb_map_t *map = plan->map;
     const yb_load_t *load = plan->load;
-    const bool added = plan->request->stage != YB_STAGE_CONTOURS;
+    const bool added = plan->request->stage != YB_STAGE_CONTOURS && plan->thin > 0.4;
     for (uint16_t i = 0; i < load->contour_count; i++)
         if (load->contour[i].count == 1)
             block_point(plan, &map->vertex[load->contour[i].first], 9);
