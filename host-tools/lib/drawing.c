@@ -38,9 +38,7 @@ static number_t number(double value, int decimals)
         if (end[-1] == '.')
             end[-1] = '\0';
     }
-    if (strcmp(written.text, "-0") == 0)
-        strcpy(written.text, "0");
-    return written;
+    return strcmp(written.text, "-0") == 0 ? (number_t){"0"} : written;
 }
 
 static number_t place(double value)
@@ -185,7 +183,7 @@ void yb_drawing_place(yb_drawing_t *drawing, double left, double top, double sca
 static void write_colour(char text[8], int32_t colour)
 {
     if (colour == YB_NO_INK)
-        strcpy(text, "none");
+        snprintf(text, 8, "none");
     else
         snprintf(text, 8, "#%06x", (unsigned)colour & 0xffffffU);
 }
