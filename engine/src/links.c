@@ -5,7 +5,6 @@
  * in the direction in which it crosses the region. Links are wishes: one that would cross a line or
  * an earlier link is not granted.
  */
-#include "fix.h"
 #include "mesh.h"
 
 enum {
@@ -22,12 +21,6 @@ typedef struct {
 static const yb_vertex_t *first_of(const place_t *place, int contour)
 {
     return &place->map->vertex[place->load->contour[contour].first];
-}
-
-static int32_t length_between(const yb_map_t *map, yb_index_t a, yb_index_t b)
-{
-    const yb_vertex_t *v = map->vertex;
-    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
 }
 
 static bool is_line(const yb_contour_t *contour)
@@ -157,7 +150,7 @@ static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
     int32_t least = INT32_MAX;
     for (int k = 0; k < contour->count; k++) {
         yb_index_t p = (yb_index_t)(contour->first + k);
-        int32_t length = length_between(place->map, m, p);
+        int32_t length = edge_length(place->map, m, p);
         if (length < least && mesh_sees(place->map, load, m, p)) {
             nearest = p;
             least = length;
@@ -168,7 +161,7 @@ static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
 }
 
 /* The triangle of the region that holds point p, strictly or on an edge that is not marked. */
-static bool find_place(const place_t *place, yb_index_t p, yb_triangle_t *at, int *edge)
+static bool find_place(const place_t *place, const yb_vertex_t *p, yb_triangle_t *at, int *edge)
 {
     const yb_map_t *map = place->map;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
@@ -178,7 +171,8 @@ static bool find_place(const place_t *place, yb_index_t p, yb_triangle_t *at, in
         int zeros = 0;
         bool out = false;
         for (int i = 0; i < 3 && !out; i++) {
-            int32_t side = orientation(map, map->triangle[t][i], map->triangle[t][next3(i)], p);
+            int32_t side = area_of(&map->vertex[map->triangle[t][i]],
+                                   &map->vertex[map->triangle[t][next3(i)]], p);
             out = side < 0;
             if (side == 0) {
                 on = i;
@@ -194,9 +188,30 @@ static bool find_place(const place_t *place, yb_index_t p, yb_triangle_t *at, in
     return false;
 }
 
+static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
+{
+    const yb_contour_t *c = &place->load->contour[line];
+    for (int i = 0; i < 3; i++) {
+        int v = place->map->triangle[t][i];
+        if (v >= c->first && v < c->first + c->count)
+            return true;
+    }
+    return false;
+}
+
+/* Is t flat ground between two lines? */
+static bool is_shelf(const place_t *place, yb_triangle_t t, int line_a, int line_b)
+{
+    const yb_vertex_t *v = place->map->vertex;
+    const yb_index_t *corner = place->map->triangle[t];
+    return v[corner[0]].z_q8 == v[corner[1]].z_q8 && v[corner[0]].z_q8 == v[corner[2]].z_q8 &&
+           has_corner_on(place, t, line_a) && has_corner_on(place, t, line_b);
+}
+
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
  * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
- * from its peak to its line, it divides the gap as s_b : s_a.
+ * from its peak to its line, it divides the gap as s_b : s_a. Only on the shelf between the
+ * two lines, though: where the mesh goes down to another line, they are no neighbours.
  */
 static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
 {
@@ -223,21 +238,22 @@ static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, boo
     /* On the quarter-step lattice. */
     int64_t x = a->x_q8 + (((b->x_q8 - a->x_q8) * at + 32768) >> 16);
     int64_t y = a->y_q8 + (((b->y_q8 - a->y_q8) * at + 32768) >> 16);
-    yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, (uint16_t)((x + 32) & ~63), (uint16_t)((y + 32) & ~63), z) !=
-        YB_OK)
-        return YB_ERR_LIMIT;
+    yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
     yb_triangle_t t = 0;
     int edge = -1;
-    if (!find_place(place, m, &t, &edge)) {
-        map->vertex_count--;
+    if (!find_place(place, &link, &t, &edge) || !is_shelf(place, t, line_a, line_b))
         return YB_OK;
-    }
+    yb_index_t m = (yb_index_t)map->vertex_count;
+    if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, z) != YB_OK)
+        return YB_ERR_LIMIT;
     *joined = true;
     mesh_split(map, load, t, edge, m);
     mesh_legalise(map, load, m);
     yb_status_t status = link_to_line(place, m, line_a);
-    return status == YB_OK ? link_to_line(place, m, line_b) : status;
+    if (status == YB_OK)
+        status = link_to_line(place, m, line_b);
+    mesh_make_delaunay(map, load); /* so that the next one finds the one and only mesh */
+    return status;
 }
 
 static yb_index_t group_of(const yb_load_t *load, int line)
@@ -280,8 +296,8 @@ static bool next_pair(const place_t *place, const pair_t *last, pair_t *next, in
             int32_t z = 0;
             if (!may_join(place, a, b, &z))
                 continue;
-            int32_t apart = length_between(place->map, place->load->contour[a].first,
-                                           place->load->contour[b].first);
+            int32_t apart = edge_length(place->map, place->load->contour[a].first,
+                                        place->load->contour[b].first);
             bool after = apart > last->apart ||
                          (apart == last->apart && (a > last->a || (a == last->a && b > last->b)));
             if (!after || (found && apart >= next->apart))
@@ -330,7 +346,7 @@ static int ruler_inside(const place_t *place, yb_index_t p)
         if (is_line(&load->contour[s]) || load->contour[s].left != place->region)
             continue;
         int64_t up = fix_abs(first_of(place, s)->z_q8 - place->map->vertex[p].z_q8);
-        int64_t along = length_between(place->map, p, load->contour[s].first);
+        int64_t along = edge_length(place->map, p, load->contour[s].first);
         if (up * run > rise * along) {
             ruler = s;
             rise = up;
@@ -340,6 +356,30 @@ static int ruler_inside(const place_t *place, yb_index_t p)
     return ruler;
 }
 
+/* Is the leaf narrower at point p than the summit is far: is a point of the same height across it
+ * nearer? Then p stands by a ridge, which the skeleton will follow.
+ */
+static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
+{
+    const yb_map_t *map = place->map;
+    int32_t far = edge_length(map, p, summit);
+    yb_triangle_t first = first_at(map, place->load, p);
+    yb_triangle_t t = first;
+    do {
+        int at = corner_of(map, t, p);
+        yb_index_t q = map->triangle[t][next3(at)];
+        if (place->load->region[t] == place->region &&
+            mark_of(place->load, t, at) == YB_RULE_NONE &&
+            map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
+            return true;
+        t = turn_left(map, place->load, t, p);
+    } while (t != NO_TRIANGLE && t != first);
+    return false;
+}
+
+/* All of a leaf's points to its summit. First all wishes, then all links: a wish sees the mesh that
+ * the others saw.
+ */
 static yb_status_t fan(const place_t *place, int line)
 {
     yb_load_t *load = place->load;
@@ -347,10 +387,13 @@ static yb_status_t fan(const place_t *place, int line)
     for (int k = 0; k < contour->count; k++) {
         yb_index_t p = (yb_index_t)(contour->first + k);
         int s = ruler_inside(place, p);
-        if (s < 0)
-            continue;
-        yb_index_t summit = load->contour[s].first;
-        if (mesh_sees(place->map, load, p, summit) &&
+        yb_index_t summit = s < 0 ? p : load->contour[s].first;
+        load->branch[p].parent = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
+    }
+    for (int k = 0; k < contour->count; k++) {
+        yb_index_t p = (yb_index_t)(contour->first + k);
+        yb_index_t summit = load->branch[p].parent;
+        if (summit != p && mesh_sees(place->map, load, p, summit) &&
             mesh_force_edge(place->map, load, p, summit, YB_RULE_SUMMIT) != YB_OK)
             return YB_ERR_LIMIT;
     }
@@ -379,7 +422,7 @@ static int ruler_beyond(const place_t *place, yb_index_t p, int line)
         if (h == z || (h > z) != (top > h) || top == h)
             continue;
         int64_t up = fix_abs(top - z);
-        int64_t along = length_between(place->map, p, load->contour[s].first);
+        int64_t along = edge_length(place->map, p, load->contour[s].first);
         if (ruler < 0 || up * run > rise * along) {
             ruler = s;
             rise = up;
@@ -411,38 +454,54 @@ enum {
     TRIES = 4 /* of the next nearest points, before one stays unlinked */
 };
 
+/* The point of the region's lines of height h that is nearest to the segment from p to its peak,
+ * after `last` in the order of distance and number; -1: none. And how near the nearest point is to
+ * p itself.
+ */
+static int nearest_to_slope(const place_t *place, yb_index_t p, yb_index_t peak, int32_t h,
+                            int32_t *last, int last_q, int32_t *shortest)
+{
+    const yb_load_t *load = place->load;
+    int nearest = -1;
+    int32_t least = INT32_MAX;
+    for (int c = 0; c < load->contour_count; c++) {
+        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+            continue;
+        for (int k = 0; k < load->contour[c].count; k++) {
+            yb_index_t q = (yb_index_t)(load->contour[c].first + k);
+            int32_t off = distance(place->map, q, p, peak);
+            *shortest = fix_min(*shortest, edge_length(place->map, p, q));
+            if ((off > *last || (off == *last && q > last_q)) && off < least) {
+                nearest = q;
+                least = off;
+            }
+        }
+    }
+    *last = least;
+    return nearest;
+}
+
+/* Links p to the next line where the segment to its peak comes nearest to a point of it. Not where
+ * that is more than a quarter longer than the shortest way to the line: the slope then leads
+ * elsewhere, whatever the peak.
+ */
 static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
 {
-    yb_map_t *map = place->map;
     yb_load_t *load = place->load;
     int s = ruler_beyond(place, p, line);
     if (s < 0)
         return YB_OK;
     yb_index_t peak = load->contour[s].first;
     int32_t h = first_of(place, line_before(place, s))->z_q8;
+    int32_t shortest = INT32_MAX;
     int32_t last = -1;
-    int last_q = -1;
+    int q = -1;
     for (int tries = 0; tries < TRIES; tries++) {
-        int nearest = -1;
-        int32_t least = INT32_MAX;
-        for (int c = 0; c < load->contour_count; c++) {
-            if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
-                continue;
-            for (int k = 0; k < load->contour[c].count; k++) {
-                yb_index_t q = (yb_index_t)(load->contour[c].first + k);
-                int32_t off = distance(map, q, p, peak);
-                if ((off > last || (off == last && q > last_q)) && off < least) {
-                    nearest = q;
-                    least = off;
-                }
-            }
-        }
-        if (nearest < 0)
+        q = nearest_to_slope(place, p, peak, h, &last, q, &shortest);
+        if (q < 0 || edge_length(place->map, p, (yb_index_t)q) > shortest + (shortest >> 2))
             return YB_OK;
-        if (mesh_sees(map, load, p, (yb_index_t)nearest))
-            return mesh_force_edge(map, load, p, (yb_index_t)nearest, YB_RULE_SLOPE);
-        last = least;
-        last_q = nearest;
+        if (mesh_sees(place->map, load, p, (yb_index_t)q))
+            return mesh_force_edge(place->map, load, p, (yb_index_t)q, YB_RULE_SLOPE);
     }
     return YB_OK;
 }
@@ -526,7 +585,7 @@ yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
         if (v < load->first_skeleton)
             continue;
         const yb_branch_t *branch = &load->branch[v];
-        if (branch->parent == w || (branch->meets && branch->other == w))
+        if (branch->parent == w || branch->other == w)
             return YB_RULE_SKELETON;
     }
     return YB_RULE_NONE;

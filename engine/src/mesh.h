@@ -12,6 +12,8 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "fix.h"
+
 enum {
     UNKNOWN_HEIGHT = INT32_MIN,
     MARK_SHIFT = 8 * sizeof(yb_entry_t) - 4,
@@ -53,14 +55,25 @@ static inline bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
  */
+static inline int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
+{
+    int32_t abx = (b->x_q8 >> 2) - (a->x_q8 >> 2);
+    int32_t aby = (b->y_q8 >> 2) - (a->y_q8 >> 2);
+    int32_t acx = (c->x_q8 >> 2) - (a->x_q8 >> 2);
+    int32_t acy = (c->y_q8 >> 2) - (a->y_q8 >> 2);
+    return abx * acy - aby * acx;
+}
+
 static inline int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c)
 {
+    return area_of(&map->vertex[a], &map->vertex[b], &map->vertex[c]);
+}
+
+/* Length of an edge, q8: see fix_length. */
+static inline int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b)
+{
     const yb_vertex_t *v = map->vertex;
-    int32_t abx = (v[b].x_q8 >> 2) - (v[a].x_q8 >> 2);
-    int32_t aby = (v[b].y_q8 >> 2) - (v[a].y_q8 >> 2);
-    int32_t acx = (v[c].x_q8 >> 2) - (v[a].x_q8 >> 2);
-    int32_t acy = (v[c].y_q8 >> 2) - (v[a].y_q8 >> 2);
-    return abx * acy - aby * acx;
+    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
 }
 
 /* Checks the contours against the frame, tells open from closed ones, adds the corners that no
