@@ -144,7 +144,10 @@ static int check_drawing(request_t *request)
         return cli_usage("a drawing shows the base triangles: leave --depth, --reference and "
                          "--no-detail out");
     const char *slash = strrchr(request->input, '/');
-    request->drawing.name = slash == NULL ? request->input : slash + 1;
+    const bool standard = strcmp(request->input, "-") == 0;
+    request->drawing.name = standard        ? "standard input"
+                            : slash == NULL ? request->input
+                                            : slash + 1;
     request->drawing.width = request->width == 0 ? DRAWING_WIDTH : (uint32_t)request->width;
     if (!request->drawing.plain && request->drawing.width < YB_MESH_DRAWING_LEAST)
         return cli_usage("--width: with a legend at least %d pixels; --plain leaves it out",

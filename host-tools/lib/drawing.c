@@ -52,23 +52,54 @@ static number_t pixels(const yb_drawing_t *drawing, double value)
     return number(value / drawing->scale, 3);
 }
 
+/* Bytes of the character at `text`; 0: it is not UTF-8. */
+static size_t utf8_bytes(const char *text)
+{
+    const unsigned char first = (unsigned char)*text;
+    const size_t bytes = first < 0x80                    ? 1
+                         : first >= 0xc2 && first < 0xe0 ? 2
+                         : first >= 0xe0 && first < 0xf0 ? 3
+                         : first >= 0xf0 && first < 0xf5 ? 4
+                                                         : 0;
+    for (size_t i = 1; i < bytes; i++)
+        if (((unsigned char)text[i] & 0xc0) != 0x80)
+            return 0;
+    return bytes;
+}
+
+enum {
+    MOST_TEXT = 512
+};
+
+/* Names of files may hold anything; XML and Cairo want UTF-8 without control characters. */
+static void clean(const char *text, char cleaned[MOST_TEXT])
+{
+    size_t at = 0;
+    while (*text != '\0' && at + 5 < MOST_TEXT) {
+        const size_t bytes = utf8_bytes(text);
+        const bool good = bytes > 0 && (unsigned char)*text >= ' ';
+        for (size_t i = 0; good && i < bytes; i++)
+            cleaned[at++] = text[i];
+        if (!good)
+            cleaned[at++] = '?';
+        text += bytes == 0 ? 1 : bytes;
+    }
+    cleaned[at] = '\0';
+}
+
 static void write_escaped(FILE *stream, const char *text)
 {
-    for (; *text != '\0'; text++) {
-        switch (*text) {
-        case '&':
+    char cleaned[MOST_TEXT];
+    clean(text, cleaned);
+    for (const char *at = cleaned; *at != '\0'; at++) {
+        if (*at == '&')
             fputs("&amp;", stream);
-            break;
-        case '<':
+        else if (*at == '<')
             fputs("&lt;", stream);
-            break;
-        case '>':
+        else if (*at == '>')
             fputs("&gt;", stream);
-            break;
-        default:
-            /* XML has no other control characters */
-            fputc((unsigned char)*text < ' ' ? ' ' : *text, stream);
-        }
+        else
+            fputc(*at, stream);
     }
 }
 
@@ -276,16 +307,18 @@ static void paint_text(yb_drawing_t *drawing, const yb_label_t *label, const cha
     static const double share[] = {0, 0.5, 1};
     cairo_t *cairo = drawing->cairo;
     cairo_text_extents_t extents;
+    char cleaned[MOST_TEXT];
+    clean(text, cleaned);
     cairo_save(cairo);
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            label->bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo, label->size);
-    cairo_text_extents(cairo, text, &extents);
+    cairo_text_extents(cairo, cleaned, &extents);
     cairo_translate(cairo, page_x(drawing, label->x), page_y(drawing, label->y));
     cairo_rotate(cairo, label->turned * acos(-1.0) / 180);
     cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
     cairo_move_to(cairo, -share[label->anchor] * extents.x_advance, 0);
-    cairo_text_path(cairo, text);
+    cairo_text_path(cairo, cleaned);
     if (label->halo != YB_NO_INK) {
         set_colour(cairo, label->halo);
         cairo_set_line_width(cairo, 3);
@@ -325,31 +358,32 @@ void yb_drawing_text(yb_drawing_t *drawing, const yb_label_t *label, const char 
     fputs("</text>\n", svg);
 }
 
-static bool end_svg(yb_drawing_t *drawing)
+/* What was wrong, or NULL. */
+static const char *end_svg(yb_drawing_t *drawing)
 {
     end_group(drawing);
     fputs("</svg>\n", drawing->svg);
     const bool good = ferror(drawing->svg) == 0;
-    return fclose(drawing->svg) == 0 && good;
+    return fclose(drawing->svg) == 0 && good ? NULL : strerror(errno);
 }
 
-static bool end_png(yb_drawing_t *drawing)
+static const char *end_png(yb_drawing_t *drawing)
 {
-    const bool good =
-        cairo_status(drawing->cairo) == CAIRO_STATUS_SUCCESS &&
-        cairo_surface_write_to_png(cairo_get_target(drawing->cairo),
-                                   yb_output_path(drawing->output)) == CAIRO_STATUS_SUCCESS;
+    cairo_status_t status = cairo_status(drawing->cairo);
+    if (status == CAIRO_STATUS_SUCCESS)
+        status = cairo_surface_write_to_png(cairo_get_target(drawing->cairo),
+                                            yb_output_path(drawing->output));
     cairo_destroy(drawing->cairo);
-    return good;
+    return status == CAIRO_STATUS_SUCCESS ? NULL : cairo_status_to_string(status);
 }
 
 bool yb_drawing_close(yb_drawing_t *drawing, yb_error_t *error)
 {
     end_path(drawing);
-    bool good = drawing->cairo != NULL ? end_png(drawing) : end_svg(drawing);
-    if (!good)
-        yb_error_set(error, "cannot write %s: %s", drawing->target, strerror(errno));
-    good = good && yb_output_commit(drawing->output, error);
+    const char *wrong = drawing->cairo != NULL ? end_png(drawing) : end_svg(drawing);
+    if (wrong != NULL)
+        yb_error_set(error, "cannot write %s: %s", drawing->target, wrong);
+    const bool good = wrong == NULL && yb_output_commit(drawing->output, error);
     yb_output_close(drawing->output);
     free(drawing);
     return good;

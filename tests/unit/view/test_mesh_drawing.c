@@ -179,6 +179,30 @@ static void svg_is_xml_and_says_what_it_shows(void **state)
     yb_code_file_free(file);
 }
 
+static void any_name_makes_valid_xml(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {{"\xe5\xb1\xb1\xe5\xbd\xa6", "\xe5\xb1\xb1\xe5\xbd\xa6"},
+                                           {"half \xe5\xb1", "half ??"},
+                                           {"\x80\xff\x01 bell \x07", "??? bell ?"}};
+    yb_code_file_t *file = code_slope();
+    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
+        yb_mesh_drawing_t request = request_of(YB_STAGE_CONTOURS);
+        request.name = names[i][0];
+        size_t size = 0;
+        char *svg = drawn("map.svg", file, &request, &size);
+        CPLXMLNode *tree = CPLParseXMLString(svg);
+        assert_non_null(tree);
+        const char *title = CPLGetXMLValue(CPLGetXMLNode(tree, "=svg"), "title", "");
+        assert_memory_equal(title, names[i][1], strlen(names[i][1]));
+        assert_int_equal(title[strlen(names[i][1])], ':');
+        CPLDestroyXMLNode(tree);
+        free(svg);
+        free(drawn("map.png", file, &request, &size));
+    }
+    yb_code_file_free(file);
+}
+
 static void the_same_map_gives_the_same_bytes(void **state)
 {
     (void)state;
@@ -266,6 +290,7 @@ int main(void)
         cmocka_unit_test(links_are_what_the_rules_made),
         cmocka_unit_test(contours_have_heights_and_a_lower_side),
         cmocka_unit_test(svg_is_xml_and_says_what_it_shows),
+        cmocka_unit_test(any_name_makes_valid_xml),
         cmocka_unit_test(the_same_map_gives_the_same_bytes),
         cmocka_unit_test(plain_is_the_plan_alone),
         cmocka_unit_test(files_are_not_overwritten),
