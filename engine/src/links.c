@@ -188,15 +188,14 @@ static int side_in(const place_t *place, yb_triangle_t t, const yb_vertex_t *p)
     return on;
 }
 
-/* The flat triangle between two lines that holds point p. */
-static bool find_shelf(const place_t *place, const yb_vertex_t *p, int line_a, int line_b,
-                       yb_triangle_t *at, int *edge)
+/* The triangle between two lines that holds point p. */
+static bool find_between(const place_t *place, const yb_vertex_t *p, int line_a, int line_b,
+                         yb_triangle_t *at, int *edge)
 {
     for (yb_triangle_t t = 0; t < place->map->triangle_count; t++) {
         *at = t;
         *edge = side_in(place, t, p);
-        if (*edge != OUTSIDE && is_flat(place->map, t) && has_corner_on(place, t, line_a) &&
-            has_corner_on(place, t, line_b))
+        if (*edge != OUTSIDE && has_corner_on(place, t, line_a) && has_corner_on(place, t, line_b))
             return true;
     }
     return false;
@@ -204,8 +203,8 @@ static bool find_shelf(const place_t *place, const yb_vertex_t *p, int line_a, i
 
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
  * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
- * from its peak to its line, it divides the gap as s_b : s_a. Only on the shelf between the
- * two lines, though: where the mesh goes down to another line, they are no neighbours.
+ * from its peak to its line, it divides the gap as s_b : s_a. Only where the mesh joins the two
+ * lines, though: with a third line in between they are no neighbours.
  */
 static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
 {
@@ -235,7 +234,7 @@ static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, boo
     yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
     yb_triangle_t t = 0;
     int edge = -1;
-    if (!find_shelf(place, &link, line_a, line_b, &t, &edge))
+    if (!find_between(place, &link, line_a, line_b, &t, &edge))
         return YB_OK;
     yb_index_t m = (yb_index_t)map->vertex_count;
     if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, z) != YB_OK)
