@@ -1,44 +1,20 @@
-/* The edges that the papers want, and the points between peaks (faithful paper, 4, 5 and 7).
+/* Links: the edges that the papers want (faithful paper, 4 to 5.2).
  *
  * All rules of a region speak of *peaks*: the spot heights beyond its lines, each behind one line
  * of the region. A peak may as well be the bottom of a pit: what counts is that the ground goes on
  * in the direction in which it crosses the region. Links are wishes: one that would cross a line or
- * an earlier link is not granted.
+ * an earlier link is not granted, and the constrained Delaunay triangulation fills the rest.
  */
-#include "mesh.h"
+#include "links.h"
 
 enum {
-    NOWHERE = YB_MAX_CONTOURS, /* no line leads to this region */
-    OUTSIDE = 3                /* of a triangle */
+    MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
-/* A region while its rules are applied; load->scratch[r] is the line that leads to region r. */
-typedef struct {
-    yb_map_t *map;
-    yb_load_t *load;
-    yb_index_t region;
-} place_t;
-
-static const yb_vertex_t *first_of(const place_t *place, int contour)
-{
-    return &place->map->vertex[place->load->contour[contour].first];
-}
-
-static bool is_line(const yb_contour_t *contour)
-{
-    return contour->count > 1;
-}
-
-static bool bounds(const place_t *place, int contour)
+bool bounds(const place_t *place, int contour)
 {
     const yb_contour_t *c = &place->load->contour[contour];
     return is_line(c) && (c->left == place->region || c->right == place->region);
-}
-
-/* Spot heights: those of the code and those that were added. */
-static int all_contours(const yb_load_t *load)
-{
-    return load->contour_count + load->summit_count;
 }
 
 /* Finds for every other region which line of this one leads to it. */
@@ -69,261 +45,12 @@ static void look_beyond(const place_t *place)
     }
 }
 
-/* The line of the region behind which spot height s lies, or NOWHERE. */
-static int line_before(const place_t *place, int s)
+int line_before(const place_t *place, int s)
 {
     const yb_contour_t *spot = &place->load->contour[s];
     if (is_line(spot) || spot->left == place->region)
         return NOWHERE;
     return place->load->scratch[spot->left];
-}
-
-/* --- 5.1, 7: link points between neighbouring peaks ------------------------------------------- */
-
-/* The height of the region's other lines, or frame corners, that is nearest to h; h if none. */
-static int32_t other_height(const place_t *place, int32_t h)
-{
-    const yb_load_t *load = place->load;
-    int32_t nearest = h;
-    for (int c = 0; c < load->contour_count + 4; c++) {
-        int32_t z = h;
-        if (c < load->contour_count) {
-            if (bounds(place, c))
-                z = first_of(place, c)->z_q8;
-        } else {
-            yb_index_t corner = load->corner[c - load->contour_count];
-            if (load->region[load->star[corner]] == place->region)
-                z = place->map->vertex[corner].z_q8;
-        }
-        if (z != h && (nearest == h || fix_abs(z - h) < fix_abs(nearest - h)))
-            nearest = z;
-    }
-    return nearest;
-}
-
-/* Two peaks behind two lines of one height, and how far they are apart. */
-typedef struct {
-    int a, b; /* spot heights */
-    int32_t apart;
-} pair_t;
-
-/* Where the segment between two peaks leaves the line of the first and enters that of the second,
- * in 1/65536 of its length. False: something else is in between.
- */
-static bool find_gap(const place_t *place, yb_index_t a, yb_index_t b, int line_a, int line_b,
-                     uint32_t *leaves, uint32_t *enters)
-{
-    const yb_load_t *load = place->load;
-    const yb_map_t *map = place->map;
-    bool inside = false; /* the region */
-    mesh_walk_t walk;
-    mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
-    for (; step == WALK_CROSSES; step = mesh_walk_on(map, load, &walk)) {
-        if (mark_of(load, walk.t, walk.edge) != YB_RULE_CONTOUR)
-            continue;
-        yb_index_t p = map->triangle[walk.t][walk.edge];
-        yb_index_t q = map->triangle[walk.t][next3(walk.edge)];
-        int64_t from = orientation(map, p, q, a);
-        int64_t to = orientation(map, p, q, b);
-        uint32_t at = (uint32_t)((from << 16) / (from - to));
-        if (!inside && load->region[neighbour_of(load, walk.t, walk.edge)] == place->region) {
-            inside = true;
-            *leaves = at;
-        } else if (inside) {
-            int line = load->scratch[load->region[neighbour_of(load, walk.t, walk.edge)]];
-            *enters = at;
-            if (line == line_b)
-                return true;
-            if (line != line_a)
-                return false;
-            inside = false;
-        }
-    }
-    return false;
-}
-
-/* Links m to the nearest point of a line that it sees. */
-static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
-{
-    yb_load_t *load = place->load;
-    const yb_contour_t *contour = &load->contour[line];
-    int nearest = -1;
-    int32_t least = INT32_MAX;
-    for (int k = 0; k < contour->count; k++) {
-        yb_index_t p = (yb_index_t)(contour->first + k);
-        int32_t length = edge_length(place->map, m, p);
-        if (length < least && mesh_sees(place->map, load, m, p)) {
-            nearest = p;
-            least = length;
-        }
-    }
-    return nearest < 0 ? YB_OK
-                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
-}
-
-static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
-{
-    const yb_contour_t *c = &place->load->contour[line];
-    for (int i = 0; i < 3; i++) {
-        int v = place->map->triangle[t][i];
-        if (v >= c->first && v < c->first + c->count)
-            return true;
-    }
-    return false;
-}
-
-/* Where p lies in triangle t: -1: inside, 0 to 2: on this edge, which is not marked, OUTSIDE. */
-static int side_in(const place_t *place, yb_triangle_t t, const yb_vertex_t *p)
-{
-    const yb_vertex_t *v = place->map->vertex;
-    int on = -1;
-    for (int i = 0; i < 3; i++) {
-        int32_t side =
-            area_of(&v[place->map->triangle[t][i]], &v[place->map->triangle[t][next3(i)]], p);
-        if (side < 0 || (side == 0 && (on >= 0 || mark_of(place->load, t, i) != YB_RULE_NONE)))
-            return OUTSIDE;
-        if (side == 0)
-            on = i;
-    }
-    return on;
-}
-
-/* The triangle between two lines that holds point p. */
-static bool find_between(const place_t *place, const yb_vertex_t *p, int line_a, int line_b,
-                         yb_triangle_t *at, int *edge)
-{
-    for (yb_triangle_t t = 0; t < place->map->triangle_count; t++) {
-        *at = t;
-        *edge = side_in(place, t, p);
-        if (*edge != OUTSIDE && has_corner_on(place, t, line_a) && has_corner_on(place, t, line_b))
-            return true;
-    }
-    return false;
-}
-
-/* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
- * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
- * from its peak to its line, it divides the gap as s_b : s_a. Only where the mesh joins the two
- * lines, though: with a third line in between they are no neighbours.
- */
-static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
-{
-    yb_map_t *map = place->map;
-    yb_load_t *load = place->load;
-    int line_a = line_before(place, pair->a);
-    int line_b = line_before(place, pair->b);
-    const yb_vertex_t *a = first_of(place, pair->a);
-    const yb_vertex_t *b = first_of(place, pair->b);
-    uint32_t leaves = 0;
-    uint32_t enters = 0;
-    *joined = false;
-    if (!find_gap(place, load->contour[pair->a].first, load->contour[pair->b].first, line_a, line_b,
-                  &leaves, &enters))
-        return YB_OK;
-    /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
-    int32_t h = first_of(place, line_a)->z_q8;
-    int64_t weight_a = (int64_t)fix_abs(a->z_q8 - h) * (65536 - enters);
-    int64_t weight_b = (int64_t)fix_abs(b->z_q8 - h) * leaves;
-    int64_t gap = enters - leaves;
-    int64_t at = leaves + gap * weight_b / (weight_a + weight_b + 1);
-    at = at < leaves + gap / 8 ? leaves + gap / 8 : at;
-    at = at > enters - gap / 8 ? enters - gap / 8 : at;
-    /* On the quarter-step lattice. */
-    int64_t x = a->x_q8 + (((b->x_q8 - a->x_q8) * at + 32768) >> 16);
-    int64_t y = a->y_q8 + (((b->y_q8 - a->y_q8) * at + 32768) >> 16);
-    yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
-    yb_triangle_t t = 0;
-    int edge = -1;
-    if (!find_between(place, &link, line_a, line_b, &t, &edge))
-        return YB_OK;
-    yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, z) != YB_OK)
-        return YB_ERR_LIMIT;
-    *joined = true;
-    mesh_split(map, load, t, edge, m);
-    mesh_legalise(map, load, m);
-    yb_status_t status = link_to_line(place, m, line_a);
-    if (status == YB_OK)
-        status = link_to_line(place, m, line_b);
-    mesh_make_delaunay(map, load); /* so that the next one finds the one and only mesh */
-    return status;
-}
-
-static yb_index_t group_of(const yb_load_t *load, int line)
-{
-    while (load->group[line] != line)
-        line = load->group[line];
-    return (yb_index_t)line;
-}
-
-/* May these two peaks be joined: behind two lines of one height that are not joined yet, both on
- * the far side of the region's other height?
- */
-static bool may_join(const place_t *place, int a, int b, int32_t *between)
-{
-    const yb_load_t *load = place->load;
-    int line_a = line_before(place, a);
-    int line_b = line_before(place, b);
-    if (line_a == NOWHERE || line_b == NOWHERE || line_a == line_b)
-        return false;
-    int32_t h = first_of(place, line_a)->z_q8;
-    if (first_of(place, line_b)->z_q8 != h || group_of(load, line_a) == group_of(load, line_b))
-        return false;
-    int32_t other = other_height(place, h);
-    int32_t up_a = first_of(place, a)->z_q8 - h;
-    int32_t up_b = first_of(place, b)->z_q8 - h;
-    *between = (h + other) / 2;
-    return h > other ? up_a > 0 && up_b > 0 : h < other && up_a < 0 && up_b < 0;
-}
-
-/* The nearest pair that may be joined and comes after `last`, in the order of distance, then of
- * the spot heights' numbers.
- */
-static bool next_pair(const place_t *place, const pair_t *last, pair_t *next, int32_t *between)
-{
-    bool found = false;
-    for (int a = 0; a < all_contours(place->load); a++) {
-        if (line_before(place, a) == NOWHERE)
-            continue;
-        for (int b = a + 1; b < all_contours(place->load); b++) {
-            int32_t z = 0;
-            if (!may_join(place, a, b, &z))
-                continue;
-            int32_t apart = edge_length(place->map, place->load->contour[a].first,
-                                        place->load->contour[b].first);
-            bool after = apart > last->apart ||
-                         (apart == last->apart && (a > last->a || (a == last->a && b > last->b)));
-            if (!after || (found && apart >= next->apart))
-                continue;
-            found = true;
-            next->a = a;
-            next->b = b;
-            next->apart = apart;
-            *between = z;
-        }
-    }
-    return found;
-}
-
-/* Nearest pairs first, until all are joined or nothing more can be (7). */
-static yb_status_t join_peaks(const place_t *place)
-{
-    yb_load_t *load = place->load;
-    pair_t last = {.apart = -1};
-    pair_t pair = last;
-    int32_t z = 0;
-    for (int c = 0; c < load->contour_count; c++)
-        load->group[c] = (yb_index_t)c;
-    while (next_pair(place, &last, &pair, &z)) {
-        bool joined = false;
-        if (join(place, &pair, z, &joined) != YB_OK)
-            return YB_ERR_LIMIT;
-        if (joined)
-            load->group[group_of(load, line_before(place, pair.a))] =
-                group_of(load, line_before(place, pair.b));
-        last = pair;
-    }
-    return YB_OK;
 }
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
@@ -424,39 +151,52 @@ static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_inde
     return (int32_t)(fix_abs(off) / (int32_t)(fix_sqrt((uint64_t)square)));
 }
 
-enum {
-    TRIES = 4 /* of the next nearest points, before one stays unlinked */
-};
-
-/* The point of the region's lines of height h that is nearest to the segment from p to its peak,
- * after `last` in the order of distance and number; -1: none. And how near the nearest point is to
- * p itself.
- */
-static int nearest_to_slope(const place_t *place, yb_index_t p, yb_index_t peak, int32_t h,
-                            int32_t *last, int last_q, int32_t *shortest)
+/* The nearest way from p to the region's lines of height h. */
+static int32_t shortest_way(const place_t *place, yb_index_t p, int32_t h)
 {
     const yb_load_t *load = place->load;
-    int nearest = -1;
-    int32_t least = INT32_MAX;
+    int32_t shortest = INT32_MAX;
+    for (int c = 0; c < load->contour_count; c++) {
+        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+            continue;
+        for (int k = 0; k < load->contour[c].count; k++)
+            shortest = fix_min(
+                shortest, edge_length(place->map, p, (yb_index_t)(load->contour[c].first + k)));
+    }
+    return shortest;
+}
+
+/* A point and how far it is from a slope line. */
+typedef struct {
+    int32_t off;
+    int point; /* -1: none */
+} near_t;
+
+/* The point of the region's lines of height h that is nearest to the segment from p to its peak and
+ * comes after `last`, of those that are not farther from p than `far`.
+ */
+static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int32_t h, int32_t far,
+                        near_t last)
+{
+    const yb_load_t *load = place->load;
+    near_t nearest = {INT32_MAX, -1};
     for (int c = 0; c < load->contour_count; c++) {
         if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
             continue;
         for (int k = 0; k < load->contour[c].count; k++) {
             yb_index_t q = (yb_index_t)(load->contour[c].first + k);
+            if (edge_length(place->map, p, q) > far)
+                continue;
             int32_t off = distance(place->map, q, p, peak);
-            *shortest = fix_min(*shortest, edge_length(place->map, p, q));
-            if ((off > *last || (off == *last && q > last_q)) && off < least) {
-                nearest = q;
-                least = off;
-            }
+            if ((off > last.off || (off == last.off && q > last.point)) && off < nearest.off)
+                nearest = (near_t){off, q};
         }
     }
-    *last = least;
     return nearest;
 }
 
-/* Links p to the next line where the segment to its peak comes nearest to a point of it. Not where
- * that is more than a quarter longer than the shortest way to the line: the slope then leads
+/* Links p to the next line where the segment to its peak comes nearest to a point of it. Only to
+ * points that are at most a quarter farther than the nearest: where there is none, the slope leads
  * elsewhere, whatever the peak.
  */
 static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
@@ -467,15 +207,15 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
         return YB_OK;
     yb_index_t peak = load->contour[s].first;
     int32_t h = first_of(place, line_before(place, s))->z_q8;
-    int32_t shortest = INT32_MAX;
-    int32_t last = -1;
-    int q = -1;
-    for (int tries = 0; tries < TRIES; tries++) {
-        q = nearest_to_slope(place, p, peak, h, &last, q, &shortest);
-        if (q < 0 || edge_length(place->map, p, (yb_index_t)q) > shortest + (shortest >> 2))
+    int32_t far = shortest_way(place, p, h);
+    far += far >> 2;
+    near_t near = {-1, -1};
+    for (int tries = 0; tries < MOST_TRIES; tries++) {
+        near = next_near(place, p, peak, h, far, near);
+        if (near.point < 0)
             return YB_OK;
-        if (mesh_sees(place->map, load, p, (yb_index_t)q))
-            return mesh_force_edge(place->map, load, p, (yb_index_t)q, YB_RULE_SLOPE);
+        if (mesh_sees(place->map, load, p, (yb_index_t)near.point))
+            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point, YB_RULE_SLOPE);
     }
     return YB_OK;
 }
@@ -514,7 +254,7 @@ static yb_status_t apply_rules(const place_t *place)
     if (lines == 1)
         return fan(place, line);
     look_beyond(place);
-    if (join_peaks(place) != YB_OK)
+    if (saddles_add(place) != YB_OK)
         return YB_ERR_LIMIT;
     for (int c = 0; c < load->contour_count; c++) {
         if (!bounds(place, c) || !is_outer(place, c))
