@@ -145,10 +145,12 @@ static bool overlap(yb_node_t a, yb_node_t b, yb_node_t other)
 }
 
 /* Is segment s in the way of a new one from a, the end of the line so far, to b? If that closes the
- * line, b is its beginning and may be touched as well.
+ * line, b is its beginning and may be touched as well. A line begins with a segment from a to a.
  */
 static bool in_the_way(const segment_t *s, yb_node_t a, yb_node_t b, bool closing)
 {
+    if (same(a, b))
+        return segments_touch(a, b, s->a, s->b);
     if (same(s->a, a) || same(s->b, a))
         return overlap(a, b, same(s->a, a) ? s->b : s->a);
     if (closing && (same(s->a, b) || same(s->b, b)))
