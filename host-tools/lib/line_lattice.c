@@ -245,14 +245,14 @@ static void remove_segment(yb_line_lattice_t *lattice)
 /* --- Walking a line --------------------------------------------------------------------------- */
 
 /* Point i of the line as it is walked: a closed one from some quarter of it on, an open one from
- * either end.
+ * either end (and at one of two places there).
  */
 static const point_t *point_at(const yb_line_lattice_t *lattice, int i)
 {
     int points = lattice->points;
     if (lattice->closed)
         i = (i + (int)((int64_t)points * lattice->start / MOST_STARTS)) % points;
-    else if (lattice->start > 0)
+    else if (lattice->start % 2 == 1)
         i = points - 1 - i;
     return &lattice->point[i];
 }
@@ -312,20 +312,36 @@ static void nodes_round(const yb_line_lattice_t *lattice, const point_t *point,
     }
 }
 
-/* Goes on to a point, or beside it if `nudge`, from `back` nodes before the end. */
-static bool step(yb_line_lattice_t *lattice, const point_t *point, int back, bool nudge)
+/* Is the point after point i in sight of a node beside it? */
+static bool leads_on(const yb_line_lattice_t *lattice, int i, yb_node_t node)
 {
-    yb_node_t found[NEIGHBOURS] = {point->nearest};
-    int count = 1;
-    while (!reaches(lattice, back, found[count - 1], false)) {
-        if (count == 1)
-            nodes_round(lattice, point, found);
-        if (!nudge || count == NEIGHBOURS)
-            return false;
-        count++;
+    return i + 1 == lattice->points ||
+           is_clear(lattice, node, point_at(lattice, i + 1)->nearest, lattice->segments, false);
+}
+
+/* Goes on to point i, or beside it if `nudge`, from `back` nodes before the end. */
+static bool step(yb_line_lattice_t *lattice, int i, int back, bool nudge)
+{
+    const point_t *point = point_at(lattice, i);
+    const yb_node_t *chosen = NULL;
+    yb_node_t found[NEIGHBOURS];
+    if (reaches(lattice, back, point->nearest, false)) {
+        chosen = &point->nearest;
+    } else if (nudge) {
+        nodes_round(lattice, point, found);
+        for (int k = 1; k < NEIGHBOURS; k++) {
+            if (!reaches(lattice, back, found[k], false))
+                continue;
+            if (chosen == NULL || leads_on(lattice, i, found[k]))
+                chosen = &found[k];
+            if (leads_on(lattice, i, *chosen))
+                break;
+        }
     }
+    if (chosen == NULL)
+        return false;
     pop(lattice, back);
-    push(lattice, found[count - 1]);
+    push(lattice, *chosen);
     return true;
 }
 
@@ -338,7 +354,7 @@ static int walk_on(yb_line_lattice_t *lattice, int i, int end, bool *stuck)
     for (int cut = *stuck ? MOST_SHORT_CUT : 0; cut <= MOST_SHORT_CUT; cut++) {
         for (int back = 0; back <= cut && back <= lattice->nodes - keep; back++) {
             int to = i + cut - back;
-            if (to < end && step(lattice, point_at(lattice, to), back, cut <= MOST_NUDGED)) {
+            if (to < end && step(lattice, to, back, cut <= MOST_NUDGED)) {
                 *stuck = false;
                 return to + 1;
             }
@@ -348,16 +364,24 @@ static int walk_on(yb_line_lattice_t *lattice, int i, int end, bool *stuck)
     return i + 1;
 }
 
-/* The k-th nearest node along the frame to one on it; false beyond a corner. */
-static bool along_frame(const yb_line_lattice_t *lattice, yb_node_t *node, int k)
+/* The node so far along the frame, counter-clockwise, from one on it. */
+static yb_node_t along_frame(const yb_line_lattice_t *lattice, yb_node_t node, int off)
 {
-    int off = (k + 1) / 2 * (k % 2 == 0 ? 1 : -1);
-    bool upright = node->x == 0 || node->x == lattice->east;
-    if (k > 0 && upright)
-        node->y += off;
-    else if (k > 0)
-        node->x += off;
-    return node->x >= 0 && node->x <= lattice->east && node->y >= 0 && node->y <= lattice->north;
+    int east = lattice->east;
+    int north = lattice->north;
+    int round = 2 * (east + north);
+    int way = node.y == 0       ? node.x
+              : node.x == east  ? east + node.y
+              : node.y == north ? east + north + (east - node.x)
+                                : round - node.y;
+    way = (way + off + round) % round;
+    if (way < east)
+        return (yb_node_t){way, 0};
+    if (way < east + north)
+        return (yb_node_t){east, way - east};
+    if (way < 2 * east + north)
+        return (yb_node_t){2 * east + north - way, north};
+    return (yb_node_t){0, round - way};
 }
 
 static bool on_one_side(const yb_line_lattice_t *lattice, yb_node_t a, yb_node_t b)
@@ -366,14 +390,18 @@ static bool on_one_side(const yb_line_lattice_t *lattice, yb_node_t a, yb_node_t
            (a.y == b.y && (a.y == 0 || a.y == lattice->north));
 }
 
-/* Begins or ends an open line on the frame, without as few nodes as possible. */
-static bool meet_frame(yb_line_lattice_t *lattice, const point_t *point)
+/* Begins or ends an open line on the frame, without as few nodes as possible; at another place than
+ * the first `skip` that would do.
+ */
+static bool meet_frame(yb_line_lattice_t *lattice, const point_t *point, int skip)
 {
     for (int back = 0; back == 0 || back < lattice->nodes; back++) {
         for (int k = 0; k <= 2 * ALONG_FRAME; k++) {
-            yb_node_t node = point->nearest;
-            if (!along_frame(lattice, &node, k) || !reaches(lattice, back, node, false) ||
-                (lattice->nodes - back == 1 && on_one_side(lattice, lattice->node[0], node)))
+            yb_node_t node =
+                along_frame(lattice, point->nearest, k % 2 == 0 ? k / 2 : -(k + 1) / 2);
+            if (!reaches(lattice, back, node, false) ||
+                (lattice->nodes - back == 1 && on_one_side(lattice, lattice->node[0], node)) ||
+                skip-- > 0)
                 continue;
             pop(lattice, back);
             push(lattice, node);
@@ -408,12 +436,12 @@ static int attempt(yb_line_lattice_t *lattice, int start)
     lattice->start = start;
     int first = lattice->closed ? 0 : 1;
     int end = lattice->points - first;
-    bool good = lattice->closed || meet_frame(lattice, point_at(lattice, 0));
+    bool good = lattice->closed || meet_frame(lattice, point_at(lattice, 0), start / 2);
     bool stuck = false;
     for (int i = first; good && i < end && !lattice->failed;)
         i = walk_on(lattice, i, end, &stuck);
     good = good &&
-           (lattice->closed ? close_line(lattice) : meet_frame(lattice, point_at(lattice, end)));
+           (lattice->closed ? close_line(lattice) : meet_frame(lattice, point_at(lattice, end), 0));
     if (!good)
         take_back(lattice);
     return lattice->nodes;
@@ -424,11 +452,10 @@ static int attempt(yb_line_lattice_t *lattice, int start)
  */
 static int lay_best(yb_line_lattice_t *lattice)
 {
-    int starts = lattice->closed ? MOST_STARTS : 2;
     int enough = lattice->points - lattice->points / 8;
     int best = 0;
     int best_start = 0;
-    for (int start = 0; start < starts; start++) {
+    for (int start = 0; start < MOST_STARTS; start++) {
         int nodes = attempt(lattice, start);
         if (nodes >= enough || lattice->failed)
             return nodes;
@@ -522,7 +549,7 @@ static bool is_repeated(const yb_line_lattice_t *lattice)
 static int lay_spot(yb_line_lattice_t *lattice)
 {
     lattice->start = 0;
-    return step(lattice, point_at(lattice, 0), 0, true) ? 1 : 0;
+    return step(lattice, 0, 0, true) ? 1 : 0;
 }
 
 int yb_line_lattice_lay(yb_line_lattice_t *lattice, const yb_line_t *line, yb_node_t *node)
