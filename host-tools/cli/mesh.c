@@ -8,6 +8,7 @@
 #include "code_file.h"
 #include "obj_file.h"
 #include "output.h"
+#include "part.h"
 #include "surface.h"
 
 enum {
@@ -27,11 +28,13 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"reference", no_argument, NULL, OPTION_REFERENCE},
                                         {"no-detail", no_argument, NULL, OPTION_NO_DETAIL},
                                         {"force", no_argument, NULL, OPTION_FORCE},
+                                        CLI_PART_LONG_OPTIONS,
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
 
 typedef struct {
     const char *input, *output;
+    cli_part_t part;
     long depth;
     bool reference, smooth, force;
 } request_t;
@@ -74,9 +77,9 @@ static int run(const request_t *request)
     yb_error_t error;
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
-    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    yb_code_file_t *file = cli_part_read_map(&request->part, request->input);
     if (file == NULL)
-        return cli_fail("%s", error.text);
+        return CLI_FAILED;
     file->map.detail = file->map.detail && !request->smooth;
     yb_mesh_t mesh = {0};
     bool good = yb_mesh_from_map(&mesh, &file->map, longest_q8(request, &file->map)) ||
@@ -103,7 +106,8 @@ int cli_mesh(int argc, char **argv)
 {
     request_t request = {.depth = BASE_TRIANGLES};
     int answer = 0;
-    while ((answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
+    int status = CLI_OK;
+    while (status == CLI_OK && (answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         switch (answer) {
         case 'o':
             request.output = optarg;
@@ -125,12 +129,17 @@ int cli_mesh(int argc, char **argv)
         case OPTION_HELP:
             return help();
         default:
-            return cli_bad_option(answer, argc, argv);
+            status = cli_part_owns(answer) ? cli_part_take(&request.part, answer, argc, argv)
+                                           : cli_bad_option(answer, argc, argv);
+            break;
         }
     }
+    status = status == CLI_OK ? cli_part_check(&request.part) : status;
+    if (status != CLI_OK)
+        return status;
     if (optind + 1 != argc)
-        return cli_usage("name one code, MAP.yb");
+        return cli_usage("name one map, MAP.yb");
     request.input = argv[optind];
-    const int status = check(&request);
+    status = check(&request);
     return status != CLI_OK ? status : run(&request);
 }
