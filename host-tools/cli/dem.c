@@ -40,18 +40,25 @@ static int help(void)
           "raster: a GeoTIFF, or any format of GDAL that the file's ending names and that holds\n"
           "32-bit floating-point numbers in one file.\n"
           "\n"
+          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+          "of GDAL: then the map has all their points, and no fractal detail.\n"
+          "\n"
           "The map's frame runs through the centres of the outermost cells of its lattice, so the\n"
           "raster reaches half a lattice step beyond it. Coordinates are metres; the frame's\n"
-          "south-west corner is 0, 0.\n"
+          "south-west corner is 0, 0, or where contour lines say that they lie.\n"
           "\n"
           "  -o, --output FILE   the raster; - is the standard output\n"
           "  --cells N           cells along the longer side, 2 to 4096 (default 256)\n"
           "  --no-detail         the smooth surface, without fractal detail\n"
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
-          "\n"
-          "Example:\n"
-          "  yamabiko dem fuji.yb -o fuji.tif --cells 512\n",
+          "\n",
+          stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\n"
+          "Examples:\n"
+          "  yamabiko dem fuji.yb -o fuji.tif --cells 512\n"
+          "  yamabiko dem contours.gpkg -o relief.tif\n",
           stdout);
     return CLI_OK;
 }

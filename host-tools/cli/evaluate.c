@@ -51,6 +51,9 @@ static void help(void)
         "or a vector file of contour lines with their heights, in any format of GDAL. The map is\n"
         "compared with contour lines themselves for K, with a surface through them otherwise.\n"
         "\n"
+        "MAP.yb may be a vector file of contour lines, too: then the map has all their points,\n"
+        "and window and field hold for both files.\n"
+        "\n"
         "  RMSE    root of the mean squared difference of height\n"
         "  NRMSE   RMSE over the standard deviation of the real heights\n"
         "  p90     what nine tenths of the differences do not exceed; max: the largest\n"
@@ -232,7 +235,7 @@ static int run(const request_t *request)
 
 int cli_evaluate(int argc, char **argv)
 {
-    request_t request = {.view = yb_view_options_default()};
+    request_t request = {.part = {.shared = true}, .view = yb_view_options_default()};
     int answer = 0;
     while ((answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
         const int status = take(&request, answer, argc, argv);

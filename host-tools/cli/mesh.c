@@ -46,7 +46,10 @@ static int help(void)
           "Writes a map's triangles as a Wavefront OBJ file: metres, x east and y north from the\n"
           "south-west corner of the frame, z up above the datum; corners that triangles share are\n"
           "written once. Without --depth or --reference these are the base triangles, whose\n"
-          "corners are the points of the coded contours.\n"
+          "corners are the points of the contours and those that the rules add.\n"
+          "\n"
+          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+          "of GDAL: then the map has all their points, and no fractal detail.\n"
           "\n"
           "  -o, --output FILE   the mesh, ending .obj; - is the standard output\n"
           "  --depth N           refine until no edge is longer than the map's width halved N\n"
@@ -55,7 +58,10 @@ static int help(void)
           "  --no-detail         of the smooth surface, without fractal detail\n"
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
-          "\n"
+          "\n",
+          stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\n"
           "Example:\n"
           "  yamabiko mesh fuji.yb -o fuji.obj --depth 6\n",
           stdout);

@@ -86,9 +86,16 @@ yb_code_file_t *cli_part_read_map(const cli_part_t *part, const char *path)
     yb_error_t error;
     yb_map_note_t note;
     yb_code_file_t *file = yb_map_file_read(path, part->field, &part->window, &note, &error);
-    if (file == NULL)
+    if (file == NULL) {
         cli_fail("%s", error.text);
-    else if (note.text[0] != '\0')
+    } else if (file->size > 0 && !part->shared &&
+               (part->boxed || part->centered || part->field != NULL)) {
+        cli_fail("%s is a code, a whole map: --window, --center and --field are for contour lines",
+                 path);
+        yb_code_file_free(file);
+        return NULL;
+    } else if (note.text[0] != '\0') {
         fprintf(stderr, "%s\n", note.text);
+    }
     return file;
 }

@@ -32,6 +32,7 @@ typedef struct {
     yb_window_t window;
     double km;
     bool boxed, centered;
+    bool shared; /* the options are for another file, too: a map may be a code */
 } cli_part_t;
 
 /* For --help: of a map, without --cell. */

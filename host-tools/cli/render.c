@@ -50,6 +50,9 @@ static void help(void)
           "Draws a map with the very code that runs in the firmware: the same pixels.\n"
           "MAP.yb may be - for the standard input, OUT.png may be - for the standard output.\n"
           "\n"
+          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+          "of GDAL: then the map has all their points, and no fractal detail.\n"
+          "\n"
           "  -o, --output FILE   the picture, a PNG file\n"
           "  --panel NAME        the exact pixels of a panel, grey levels times 17: ssd0323\n"
           "                      (128x64, 16 greys)\n"
@@ -60,9 +63,10 @@ static void help(void)
           "                      and the hash (FNV-1a, 32 bits) of the pixel bytes\n"
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
-          "\n"
-          "View:\n",
+          "\n",
           stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\nView:\n", stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"
           "Examples:\n"
