@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "rng.h"
+#include "surface.h"
 
 static const double side_m = 2550; /* steps of 10 m, grains of 62.5 cm */
 
@@ -385,6 +386,24 @@ static void test_heights_and_places_stay(void **state)
     }
 }
 
+static void test_heights_of_many_places(void **state)
+{
+    (void)state;
+    enum {
+        PLACES = 64
+    };
+    uint16_t at_q8[PLACES];
+    static int32_t z_q8[PLACES * PLACES];
+    for (int i = 0; i < 10; i++)
+        add_ring(10 * i, 1275, 1275, 1200 - 100 * i, 700);
+    make_map(10);
+    for (int i = 0; i < PLACES; i++)
+        at_q8[i] = (uint16_t)(map.east_q8 * i / (PLACES - 1));
+    yb_map_heights(&map, at_q8, PLACES, at_q8, PLACES, z_q8);
+    for (int i = 0; i < PLACES * PLACES; i++)
+        assert_int_equal(z_q8[i], yb_map_height(&map, at_q8[i % PLACES], at_q8[i / PLACES]));
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -418,6 +437,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_self_crossing, begin, end),
         cmocka_unit_test_setup_teardown(test_too_many_points, begin, end),
         cmocka_unit_test_setup_teardown(test_heights_and_places_stay, begin, end),
+        cmocka_unit_test_setup_teardown(test_heights_of_many_places, begin, end),
         cmocka_unit_test_setup_teardown(test_refused, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
