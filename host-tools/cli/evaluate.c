@@ -134,8 +134,13 @@ static void print_misfit(const char *name, const yb_misfit_t *misfit)
 
 static void print_fidelity(const yb_fidelity_t *fidelity)
 {
-    printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes, (unsigned)fidelity->points,
-           (unsigned)fidelity->contours, (unsigned)fidelity->body_bits);
+    if (fidelity->bytes > 0)
+        printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes,
+               (unsigned)fidelity->points, (unsigned)fidelity->contours,
+               (unsigned)fidelity->body_bits);
+    else
+        printf("no code: contour lines   N %u   M %u\n", (unsigned)fidelity->points,
+               (unsigned)fidelity->contours);
     print_misfit("smooth", &fidelity->smooth);
     print_misfit("with detail", &fidelity->detail);
     printf("K %.4f\n", fidelity->k);

@@ -6,11 +6,16 @@
 
 #include "detailed_map.h"
 
-static void write_note(yb_map_note_t *note, const char *path, int in_the_open,
+/* Up to one point in so many may be missing without a word. */
+enum {
+    FEW = 100
+};
+
+static void write_note(yb_map_note_t *note, const char *path, const yb_lines_t *given, int points,
                        const yb_line_loss_t *loss, double thinned_m)
 {
-    int lines = in_the_open + loss->lines;
-    if (lines > 0 || loss->points > 0)
+    int lines = given->dropped + loss->lines;
+    if (lines > 0 || FEW * loss->points > points)
         snprintf(note->text, sizeof(note->text),
                  "%s: %d lines and %d points of others are left out: they cross, touch or end away "
                  "from the frame",
@@ -38,7 +43,7 @@ static yb_code_file_t *build(const char *path, yb_lines_t *lines, yb_map_note_t 
     }
     file->origin = lines->origin;
     lines->origin.projection = NULL;
-    write_note(note, path, lines->dropped, &loss, thinned_m);
+    write_note(note, path, lines, file->load.point_count, &loss, thinned_m);
     return file;
 }
 
