@@ -8,8 +8,8 @@
 
 #include "camera.h"
 #include "check.h"
+#include "maps.h"
 #include "plain_frame.h"
-#include "random_plan.h"
 
 enum {
     WIDTH = 320,
@@ -38,7 +38,7 @@ static const yb_screen_t *random_scene(rng_t *rng, int round, yb_view_t *view)
                                           {WIDTH, HEIGHT, YB_RGB565}};
     if (round % 8 == 0) {
         plan_t plan;
-        random_plan(&plan, rng);
+        random_fitting_plan(&plan, rng);
         load_plan(&plan);
     }
     random_view(view, &map, rng);
@@ -326,9 +326,11 @@ static void sane_views_have_levels_enough(void **state)
         yb_view_t view;
         if (round % 8 == 0) {
             plan_t plan;
-            random_plan(&plan, &rng);
-            plan.gain = plan.gain > 16 ? 16 : plan.gain;
-            plan.unit = plan.unit > plan.cell / 4 ? plan.cell / 4 : plan.unit;
+            do {
+                random_fitting_plan(&plan, &rng);
+                plan.gain = plan.gain > 16 ? 16 : plan.gain;
+                plan.unit = plan.unit > plan.cell / 4 ? plan.cell / 4 : plan.unit;
+            } while (!map_fits(&plan));
             load_plan(&plan);
         }
         yb_view_init(&view, &map);
@@ -363,9 +365,11 @@ static void walls_meet_the_ground(void **state)
     for (int round = 0; round < 300; round++) {
         if (round % 6 == 0) {
             plan_t plan;
-            random_plan(&plan, &rng);
-            plan.gain = plan.gain > 12 ? 12 : plan.gain;
-            plan.unit = plan.unit > plan.cell / 4 ? plan.cell / 4 : plan.unit;
+            do {
+                random_fitting_plan(&plan, &rng);
+                plan.gain = plan.gain > 12 ? 12 : plan.gain;
+                plan.unit = plan.unit > plan.cell / 4 ? plan.cell / 4 : plan.unit;
+            } while (!map_fits(&plan));
             load_plan(&plan);
         }
         yb_view_t view;
