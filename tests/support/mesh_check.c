@@ -105,7 +105,7 @@ const char *mesh_check_tiling(const yb_map_t *map, const plan_t *plan)
     if (wrong != NULL)
         return wrong;
     int64_t area = 0;
-    for (int t = 0; t < map->triangle_count; t++) {
+    for (int t = 0; t < (int)map->triangle_count; t++) {
         const yb_index_t *v = map->triangle[t];
         int64_t twice = turn(&map->vertex[v[0]], &map->vertex[v[1]], &map->vertex[v[2]]);
         if (twice <= 0)
@@ -130,7 +130,7 @@ const char *mesh_check_tiling(const yb_map_t *map, const plan_t *plan)
         if (used < 2)
             return "an unused vertex";
     }
-    if (map->vertex_count - count + map->triangle_count != 1)
+    if (map->vertex_count - count + (int)map->triangle_count != 1)
         return "Euler's count";
     for (int i = 0; i < plan->contours; i++) {
         for (int k = 0; k < plan_edges(plan, i); k++) {
@@ -368,7 +368,7 @@ static int by_number(const void *a, const void *b)
 uint64_t mesh_hash(const yb_map_t *map)
 {
     uint32_t triangle[2 * MOST];
-    for (int t = 0; t < map->triangle_count; t++) {
+    for (int t = 0; t < (int)map->triangle_count; t++) {
         const yb_index_t *v = map->triangle[t];
         int first = v[0] < v[1] && v[0] < v[2] ? 0 : v[1] < v[2] ? 1 : 2;
         triangle[t] =
@@ -383,7 +383,7 @@ uint64_t mesh_hash(const yb_map_t *map)
         hash = fnv_number(fnv_number(hash, v->gx_q11), v->gy_q11);
     }
     hash = fnv_number(hash, map->triangle_count);
-    for (int t = 0; t < map->triangle_count; t++)
+    for (int t = 0; t < (int)map->triangle_count; t++)
         hash = fnv_number(hash, triangle[t]);
     for (int c = 0; c < YB_LENGTH_CLASSES; c++)
         hash = fnv_number(hash, map->noise[c]);
