@@ -437,6 +437,13 @@ void random_mountain(plan_t *plan, rng_t *rng)
         plan->east = plan->north = 255;
     if (rng_one_in(rng, 2))
         plan->frame_height = 0;
+    if (rng_one_in(rng, 12)) { /* next to no relief: heights that differ by a unit or not at all */
+        plan->cell = 0x4fff;
+        plan->unit = rng_range(rng, 1, 40);
+    } else if (rng_one_in(rng, 20)) { /* up to the highest height there is */
+        plan->cell = 40;
+        plan->unit = 128;
+    }
     for (int i = rng_range(rng, 1, 5); i > 0 && plan->points < 120; i--)
         mountain(plan, rng);
     if (rng_one_in(rng, 6))
