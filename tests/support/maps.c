@@ -80,3 +80,25 @@ void random_fitting_plan(plan_t *plan, rng_t *rng)
         random_plan(plan, rng);
     while (!map_fits(plan));
 }
+
+int map_vertex_at(const yb_map_t *map, double x, double y)
+{
+    for (int i = 0; i < map->vertex_count; i++) {
+        if (map->vertex[i].x_q8 == (int)(x * 256) && map->vertex[i].y_q8 == (int)(y * 256))
+            return i;
+    }
+    return -1;
+}
+
+int map_edge(const yb_map_t *map, const yb_load_t *load, int a, int b)
+{
+    for (int t = 0; t < (int)map->triangle_count; t++) {
+        for (int i = 0; i < 3; i++) {
+            int p = map->triangle[t][i];
+            int q = map->triangle[t][(i + 1) % 3];
+            if ((p == a && q == b) || (p == b && q == a))
+                return (int)yb_edge_rule(map, load, (yb_triangle_t)t, i);
+        }
+    }
+    return -1;
+}

@@ -22,4 +22,10 @@ bool map_fits(const plan_t *plan);
 /* A random plan whose code the engine takes: see random_plan. */
 void random_fitting_plan(plan_t *plan, rng_t *rng);
 
+/* The vertex at a place, in steps, or -1. */
+int map_vertex_at(const yb_map_t *map, double x, double y);
+
+/* The rule of the edge between two vertices, or -1: there is none. */
+int map_edge(const yb_map_t *map, const yb_load_t *load, int a, int b);
+
 #endif
