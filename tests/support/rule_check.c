@@ -254,6 +254,105 @@ static const char *check_edge(const scene_t *s, int t, int edge)
     return NULL;
 }
 
+/* Twice the area of abc; q8, so below 2^33. */
+static int64_t area(const scene_t *s, int a, int b, int c)
+{
+    const yb_vertex_t *p = s->map->vertex;
+    return ((int64_t)p[b].x_q8 - p[a].x_q8) * ((int64_t)p[c].y_q8 - p[a].y_q8) -
+           ((int64_t)p[b].y_q8 - p[a].y_q8) * ((int64_t)p[c].x_q8 - p[a].x_q8);
+}
+
+/* Does vertex k lie on ab, between its ends? */
+static bool lies_on(const scene_t *s, int a, int b, int k)
+{
+    const yb_vertex_t *p = s->map->vertex;
+    int64_t on = ((int64_t)p[k].x_q8 - p[a].x_q8) * ((int64_t)p[k].x_q8 - p[b].x_q8) +
+                 ((int64_t)p[k].y_q8 - p[a].y_q8) * ((int64_t)p[k].y_q8 - p[b].y_q8);
+    return k != a && k != b && area(s, a, b, k) == 0 && on <= 0;
+}
+
+static bool opposite(int64_t a, int64_t b)
+{
+    return (a > 0 && b < 0) || (a < 0 && b > 0);
+}
+
+/* Does the way from a to b meet no line and no vertex that was there before links? */
+static bool sees(const scene_t *s, int a, int b)
+{
+    for (int k = 0; k < s->load->first_saddle; k++) {
+        if (lies_on(s, a, b, k))
+            return false;
+    }
+    for (int i = 0; i < s->plan->contours; i++) {
+        for (int k = 0; k < plan_edges(s->plan, i); k++) {
+            int c, d;
+            plan_edge(s->plan, i, k, &c, &d);
+            if (opposite(area(s, a, b, c), area(s, a, b, d)) &&
+                opposite(area(s, c, d, a), area(s, c, d, b)))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Where one line bounds a region that has one summit. */
+static const char *check_fan(const scene_t *s, int r)
+{
+    int line = NONE;
+    int summit = NONE;
+    for (int k = 0; k < s->load->first_saddle; k++) {
+        if (!s->touches[r][k])
+            continue;
+        if (is_spot(s, k)) {
+            if (summit != NONE)
+                return NULL;
+            summit = k;
+        } else if (is_on_line(s, k)) {
+            if (line != NONE && line != s->contour_of[k])
+                return NULL;
+            line = s->contour_of[k];
+        }
+    }
+    if (summit == NONE || line == NONE)
+        return NULL;
+    const plan_contour_t *c = &s->plan->contour[line];
+    for (int p = c->first; p < c->first + c->count; p++) {
+        if (z_of(s, p) == z_of(s, summit))
+            return NULL;
+        int t = s->left[summit][p];
+        int edge = 0;
+        for (int i = 0; i < 3 && t != NONE; i++)
+            edge = s->map->triangle[t][i] == summit ? i : edge;
+        bool linked =
+            t != NONE && yb_edge_rule(s->map, s->load, (yb_triangle_t)t, edge) == YB_RULE_SUMMIT;
+        if (linked != sees(s, summit, p))
+            return linked ? "a fan through something" : "a point that is not linked to its summit";
+    }
+    return NULL;
+}
+
+/* An edge of one height between two points that are both higher, or both lower. */
+static const char *check_dam(const scene_t *s, int t, int edge)
+{
+    int a = s->map->triangle[t][edge];
+    int b = s->map->triangle[t][(edge + 1) % 3];
+    int c = s->map->triangle[t][(edge + 2) % 3];
+    int u = s->left[b][a];
+    int32_t h = z_of(s, a);
+    if (u == NONE || z_of(s, b) != h || a >= s->load->first_skeleton ||
+        b >= s->load->first_skeleton ||
+        yb_edge_rule(s->map, s->load, (yb_triangle_t)t, edge) != YB_RULE_NONE)
+        return NULL;
+    int d = NONE;
+    for (int i = 0; i < 3; i++) {
+        if (s->map->triangle[u][i] != a && s->map->triangle[u][i] != b)
+            d = s->map->triangle[u][i];
+    }
+    if ((z_of(s, c) > h && z_of(s, d) > h) || (z_of(s, c) < h && z_of(s, d) < h))
+        return "an edge that dams a valley or cuts a ridge";
+    return NULL;
+}
+
 /* --- Skeletons -------------------------------------------------------------------------------- */
 
 /* Point v of a skeleton, in the middle of an edge of height h. */
@@ -313,5 +412,9 @@ const char *rule_check(const yb_map_t *map, const yb_load_t *load, const plan_t 
         wrong = check_skeleton(&s, v);
     for (int t = 0; t < 3 * (int)map->triangle_count && wrong == NULL; t++)
         wrong = check_edge(&s, t / 3, t % 3);
+    for (int t = 0; t < 3 * (int)map->triangle_count && wrong == NULL; t++)
+        wrong = check_dam(&s, t / 3, t % 3);
+    for (int r = 0; r < s.regions && wrong == NULL; r++)
+        wrong = check_fan(&s, r);
     return wrong;
 }
