@@ -59,6 +59,19 @@ yb_status_t map_triangulate(yb_map_t *map, yb_load_t *load, const plan_t *plan)
     return status;
 }
 
+yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan)
+{
+    yb_status_t status = map_triangulate(map, load, plan);
+    load->first_summit = map->vertex_count;
+    if (status == YB_OK)
+        status = summits_add(map, load);
+    load->first_saddle = map->vertex_count;
+    if (status == YB_OK)
+        status = links_add(map, load);
+    load->first_skeleton = map->vertex_count;
+    return status;
+}
+
 bool map_same(const yb_map_t *a, const yb_map_t *b)
 {
     return memcmp(a, b, offsetof(yb_map_t, vertex)) == 0 &&

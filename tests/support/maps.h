@@ -13,6 +13,9 @@ void map_set(yb_map_t *map, yb_load_t *load, const plan_t *plan);
 /* Builds only the constrained Delaunay triangulation and its regions: what the rules start from. */
 YB_MUST_CHECK yb_status_t map_triangulate(yb_map_t *map, yb_load_t *load, const plan_t *plan);
 
+/* Goes on from map_triangulate to the summits and links: what the skeletons start from. */
+YB_MUST_CHECK yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan);
+
 /* The same in all that is said, whatever lies in the arrays beyond their counts. */
 bool map_same(const yb_map_t *a, const yb_map_t *b);
 

@@ -186,7 +186,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-const char *mesh_check_delaunay(const yb_map_t *map, const plan_t *plan)
+const char *mesh_check_delaunay(const yb_map_t *map, const yb_load_t *load, const plan_t *plan)
 {
     static edges_t edges;
     static uint8_t fixed[MOST][MOST];
@@ -194,6 +194,11 @@ const char *mesh_check_delaunay(const yb_map_t *map, const plan_t *plan)
     if (wrong != NULL)
         return wrong;
     find_fixed(plan, fixed);
+    for (int t = 0; t < 3 * (int)map->triangle_count && load != NULL; t++) {
+        const yb_index_t *v = map->triangle[t / 3];
+        if (yb_edge_rule(map, load, (yb_triangle_t)(t / 3), t % 3) != YB_RULE_NONE)
+            fixed[v[t % 3]][v[(t % 3 + 1) % 3]] = fixed[v[(t % 3 + 1) % 3]][v[t % 3]] = 1;
+    }
     for (int a = 0; a < map->vertex_count; a++) {
         for (int b = 0; b < a; b++) {
             if (edges.left[a][b] == NONE || edges.left[b][a] == NONE || fixed[a][b] != 0)
@@ -353,7 +358,7 @@ const char *mesh_check_bare(const yb_map_t *map, const yb_load_t *load, const pl
     const char *wrong = mesh_check(map, load, plan);
     if (wrong == NULL && map->vertex_count != plan_vertices(plan))
         wrong = "vertex count";
-    return wrong == NULL ? mesh_check_delaunay(map, plan) : wrong;
+    return wrong == NULL ? mesh_check_delaunay(map, NULL, plan) : wrong;
 }
 
 /* --- Hash ------------------------------------------------------------------------------------- */

@@ -18,10 +18,11 @@ const char *mesh_check_vertices(const yb_map_t *map, const plan_t *plan);
  */
 const char *mesh_check_tiling(const yb_map_t *map, const plan_t *plan);
 
-/* Before any rule was applied: no edge but a contour's has a vertex inside the circle of its
- * triangle across it; of four on one circle the one with the smallest index has the diagonal.
+/* Before skeletons were added: no edge but a contour's or, where load is given, a link has a vertex
+ * inside the circle of its triangle across it; of four on one circle the one with the smallest
+ * index has the diagonal.
  */
-const char *mesh_check_delaunay(const yb_map_t *map, const plan_t *plan);
+const char *mesh_check_delaunay(const yb_map_t *map, const yb_load_t *load, const plan_t *plan);
 
 /* The regions on both sides of all contours, by point in polygon; their adjacency is a tree. */
 const char *mesh_check_regions(const yb_map_t *map, const yb_load_t *load, const plan_t *plan);

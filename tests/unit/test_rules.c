@@ -80,6 +80,26 @@ static void rules_hold_on_random_maps(void **state)
     assert_int_equal(wrongs, 0);
 }
 
+/* What the skeletons start from: links fixed, all else Delaunay. */
+static void the_rest_is_delaunay_after_links(void **state)
+{
+    (void)state;
+    int taken = 0;
+    for (uint64_t seed = 0; seed < 4000; seed++) {
+        rng_t rng = {seed};
+        plan_t plan;
+        random_mountain(&plan, &rng);
+        if (map_link(&map, &load, &plan) != YB_OK)
+            continue;
+        taken++;
+        const char *wrong = mesh_check(&map, &load, &plan);
+        if (wrong == NULL)
+            wrong = mesh_check_delaunay(&map, &load, &plan);
+        CHECK(wrong == NULL, "map %d: %s", (int)seed, wrong);
+    }
+    assert_true(taken > 3000);
+}
+
 /* Lines that may cross, touch and repeat points: refused if they do, else as good a map as any. */
 static void messes_are_right_or_refused(void **state)
 {
@@ -208,6 +228,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rules_hold_on_random_maps),
+        cmocka_unit_test(the_rest_is_delaunay_after_links),
         cmocka_unit_test(messes_are_right_or_refused),
         cmocka_unit_test(bad_maps_by_hand),
         cmocka_unit_test(one_line_of_many_points),
