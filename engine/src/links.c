@@ -1,50 +1,20 @@
-/* The edges that the papers want, and the points between peaks (faithful paper, 4, 5 and 7).
+/* Links: the edges that the papers want (faithful paper, 4 to 5.2).
  *
  * All rules of a region speak of *peaks*: the spot heights beyond its lines, each behind one line
  * of the region. A peak may as well be the bottom of a pit: what counts is that the ground goes on
  * in the direction in which it crosses the region. Links are wishes: one that would cross a line or
- * an earlier link is not granted.
+ * an earlier link is not granted, and the constrained Delaunay triangulation fills the rest.
  */
-#include "fix.h"
-#include "mesh.h"
+#include "links.h"
 
 enum {
-    NOWHERE = YB_MAX_CONTOURS /* no line leads to this region */
+    MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
-/* A region while its rules are applied; load->scratch[r] is the line that leads to region r. */
-typedef struct {
-    yb_map_t *map;
-    yb_load_t *load;
-    yb_index_t region;
-} place_t;
-
-static const yb_vertex_t *first_of(const place_t *place, int contour)
-{
-    return &place->map->vertex[place->load->contour[contour].first];
-}
-
-static int32_t length_between(const yb_map_t *map, yb_index_t a, yb_index_t b)
-{
-    const yb_vertex_t *v = map->vertex;
-    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
-}
-
-static bool is_line(const yb_contour_t *contour)
-{
-    return contour->count > 1;
-}
-
-static bool bounds(const place_t *place, int contour)
+bool bounds(const place_t *place, int contour)
 {
     const yb_contour_t *c = &place->load->contour[contour];
     return is_line(c) && (c->left == place->region || c->right == place->region);
-}
-
-/* Spot heights: those of the code and those that were added. */
-static int all_contours(const yb_load_t *load)
-{
-    return load->contour_count + load->summit_count;
 }
 
 /* Finds for every other region which line of this one leads to it. */
@@ -75,8 +45,7 @@ static void look_beyond(const place_t *place)
     }
 }
 
-/* The line of the region behind which spot height s lies, or NOWHERE. */
-static int line_before(const place_t *place, int s)
+int line_before(const place_t *place, int s)
 {
     const yb_contour_t *spot = &place->load->contour[s];
     if (is_line(spot) || spot->left == place->region)
@@ -84,253 +53,32 @@ static int line_before(const place_t *place, int s)
     return place->load->scratch[spot->left];
 }
 
-/* --- 5.1, 7: link points between neighbouring peaks ------------------------------------------- */
-
-/* The height of the region's other lines, or frame corners, that is nearest to h; h if none. */
-static int32_t other_height(const place_t *place, int32_t h)
-{
-    const yb_load_t *load = place->load;
-    int32_t nearest = h;
-    for (int c = 0; c < load->contour_count + 4; c++) {
-        int32_t z = h;
-        if (c < load->contour_count) {
-            if (bounds(place, c))
-                z = first_of(place, c)->z_q8;
-        } else {
-            yb_index_t corner = load->corner[c - load->contour_count];
-            if (load->region[load->star[corner]] == place->region)
-                z = place->map->vertex[corner].z_q8;
-        }
-        if (z != h && (nearest == h || fix_abs(z - h) < fix_abs(nearest - h)))
-            nearest = z;
-    }
-    return nearest;
-}
-
-/* Two peaks behind two lines of one height, and how far they are apart. */
-typedef struct {
-    int a, b; /* spot heights */
-    int32_t apart;
-} pair_t;
-
-/* Where the segment between two peaks leaves the line of the first and enters that of the second,
- * in 1/65536 of its length. False: something else is in between.
- */
-static bool find_gap(const place_t *place, yb_index_t a, yb_index_t b, int line_a, int line_b,
-                     uint32_t *leaves, uint32_t *enters)
-{
-    const yb_load_t *load = place->load;
-    const yb_map_t *map = place->map;
-    bool inside = false; /* the region */
-    mesh_walk_t walk;
-    mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
-    for (; step == WALK_CROSSES; step = mesh_walk_on(map, load, &walk)) {
-        if (mark_of(load, walk.t, walk.edge) != YB_RULE_CONTOUR)
-            continue;
-        yb_index_t p = map->triangle[walk.t][walk.edge];
-        yb_index_t q = map->triangle[walk.t][next3(walk.edge)];
-        int64_t from = orientation(map, p, q, a);
-        int64_t to = orientation(map, p, q, b);
-        uint32_t at = (uint32_t)((from << 16) / (from - to));
-        if (!inside && load->region[neighbour_of(load, walk.t, walk.edge)] == place->region) {
-            inside = true;
-            *leaves = at;
-        } else if (inside) {
-            int line = load->scratch[load->region[neighbour_of(load, walk.t, walk.edge)]];
-            *enters = at;
-            if (line == line_b)
-                return true;
-            if (line != line_a)
-                return false;
-            inside = false;
-        }
-    }
-    return false;
-}
-
-/* Links m to the nearest point of a line that it sees. */
-static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
-{
-    yb_load_t *load = place->load;
-    const yb_contour_t *contour = &load->contour[line];
-    int nearest = -1;
-    int32_t least = INT32_MAX;
-    for (int k = 0; k < contour->count; k++) {
-        yb_index_t p = (yb_index_t)(contour->first + k);
-        int32_t length = length_between(place->map, m, p);
-        if (length < least && mesh_sees(place->map, load, m, p)) {
-            nearest = p;
-            least = length;
-        }
-    }
-    return nearest < 0 ? YB_OK
-                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
-}
-
-/* The triangle of the region that holds point p, strictly or on an edge that is not marked. */
-static bool find_place(const place_t *place, yb_index_t p, yb_triangle_t *at, int *edge)
-{
-    const yb_map_t *map = place->map;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        if (place->load->region[t] != place->region)
-            continue;
-        int on = -1;
-        int zeros = 0;
-        bool out = false;
-        for (int i = 0; i < 3 && !out; i++) {
-            int32_t side = orientation(map, map->triangle[t][i], map->triangle[t][next3(i)], p);
-            out = side < 0;
-            if (side == 0) {
-                on = i;
-                zeros++;
-            }
-        }
-        if (out)
-            continue;
-        *at = t;
-        *edge = on;
-        return zeros < 2 && (on < 0 || mark_of(place->load, t, on) == YB_RULE_NONE);
-    }
-    return false;
-}
-
-/* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
- * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
- * from its peak to its line, it divides the gap as s_b : s_a.
- */
-static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
-{
-    yb_map_t *map = place->map;
-    yb_load_t *load = place->load;
-    int line_a = line_before(place, pair->a);
-    int line_b = line_before(place, pair->b);
-    const yb_vertex_t *a = first_of(place, pair->a);
-    const yb_vertex_t *b = first_of(place, pair->b);
-    uint32_t leaves = 0;
-    uint32_t enters = 0;
-    *joined = false;
-    if (!find_gap(place, load->contour[pair->a].first, load->contour[pair->b].first, line_a, line_b,
-                  &leaves, &enters))
-        return YB_OK;
-    /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
-    int32_t h = first_of(place, line_a)->z_q8;
-    int64_t weight_a = (int64_t)fix_abs(a->z_q8 - h) * (65536 - enters);
-    int64_t weight_b = (int64_t)fix_abs(b->z_q8 - h) * leaves;
-    int64_t gap = enters - leaves;
-    int64_t at = leaves + gap * weight_b / (weight_a + weight_b + 1);
-    at = at < leaves + gap / 8 ? leaves + gap / 8 : at;
-    at = at > enters - gap / 8 ? enters - gap / 8 : at;
-    /* On the quarter-step lattice. */
-    int64_t x = a->x_q8 + (((b->x_q8 - a->x_q8) * at + 32768) >> 16);
-    int64_t y = a->y_q8 + (((b->y_q8 - a->y_q8) * at + 32768) >> 16);
-    yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, (uint16_t)((x + 32) & ~63), (uint16_t)((y + 32) & ~63), z) !=
-        YB_OK)
-        return YB_ERR_LIMIT;
-    yb_triangle_t t = 0;
-    int edge = -1;
-    if (!find_place(place, m, &t, &edge)) {
-        map->vertex_count--;
-        return YB_OK;
-    }
-    *joined = true;
-    mesh_split(map, load, t, edge, m);
-    mesh_legalise(map, load, m);
-    yb_status_t status = link_to_line(place, m, line_a);
-    return status == YB_OK ? link_to_line(place, m, line_b) : status;
-}
-
-static yb_index_t group_of(const yb_load_t *load, int line)
-{
-    while (load->group[line] != line)
-        line = load->group[line];
-    return (yb_index_t)line;
-}
-
-/* May these two peaks be joined: behind two lines of one height that are not joined yet, both on
- * the far side of the region's other height?
- */
-static bool may_join(const place_t *place, int a, int b, int32_t *between)
-{
-    const yb_load_t *load = place->load;
-    int line_a = line_before(place, a);
-    int line_b = line_before(place, b);
-    if (line_a == NOWHERE || line_b == NOWHERE || line_a == line_b)
-        return false;
-    int32_t h = first_of(place, line_a)->z_q8;
-    if (first_of(place, line_b)->z_q8 != h || group_of(load, line_a) == group_of(load, line_b))
-        return false;
-    int32_t other = other_height(place, h);
-    int32_t up_a = first_of(place, a)->z_q8 - h;
-    int32_t up_b = first_of(place, b)->z_q8 - h;
-    *between = (h + other) / 2;
-    return h > other ? up_a > 0 && up_b > 0 : h < other && up_a < 0 && up_b < 0;
-}
-
-/* The nearest pair that may be joined and comes after `last`, in the order of distance, then of
- * the spot heights' numbers.
- */
-static bool next_pair(const place_t *place, const pair_t *last, pair_t *next, int32_t *between)
-{
-    bool found = false;
-    for (int a = 0; a < all_contours(place->load); a++) {
-        if (line_before(place, a) == NOWHERE)
-            continue;
-        for (int b = a + 1; b < all_contours(place->load); b++) {
-            int32_t z = 0;
-            if (!may_join(place, a, b, &z))
-                continue;
-            int32_t apart = length_between(place->map, place->load->contour[a].first,
-                                           place->load->contour[b].first);
-            bool after = apart > last->apart ||
-                         (apart == last->apart && (a > last->a || (a == last->a && b > last->b)));
-            if (!after || (found && apart >= next->apart))
-                continue;
-            found = true;
-            next->a = a;
-            next->b = b;
-            next->apart = apart;
-            *between = z;
-        }
-    }
-    return found;
-}
-
-/* Nearest pairs first, until all are joined or nothing more can be (7). */
-static yb_status_t join_peaks(const place_t *place)
-{
-    yb_load_t *load = place->load;
-    pair_t last = {.apart = -1};
-    pair_t pair = last;
-    int32_t z = 0;
-    for (int c = 0; c < load->contour_count; c++)
-        load->group[c] = (yb_index_t)c;
-    while (next_pair(place, &last, &pair, &z)) {
-        bool joined = false;
-        if (join(place, &pair, z, &joined) != YB_OK)
-            return YB_ERR_LIMIT;
-        if (joined)
-            load->group[group_of(load, line_before(place, pair.a))] =
-                group_of(load, line_before(place, pair.b));
-        last = pair;
-    }
-    return YB_OK;
-}
-
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
 
-/* The spot height in the region whose slope rules point p: the steepest way to it. -1: none. */
-static int ruler_inside(const place_t *place, yb_index_t p)
+/* The peak whose slope rules point p: the steepest way up from p, or down to a pit (tan θ, 5.1). In
+ * a leaf (line < 0) one of those in it; else one beyond another line, if the ground goes on there
+ * the way it goes to that line. -1: none.
+ */
+static int ruler_of(const place_t *place, yb_index_t p, int line)
 {
     const yb_load_t *load = place->load;
+    int32_t z = place->map->vertex[p].z_q8;
     int ruler = -1;
     int64_t rise = 0;
     int64_t run = 1;
     for (int s = 0; s < all_contours(load); s++) {
-        if (is_line(&load->contour[s]) || load->contour[s].left != place->region)
+        const yb_contour_t *spot = &load->contour[s];
+        int32_t top = first_of(place, s)->z_q8;
+        if (is_line(spot) || (line < 0) != (spot->left == place->region))
             continue;
-        int64_t up = fix_abs(first_of(place, s)->z_q8 - place->map->vertex[p].z_q8);
-        int64_t along = length_between(place->map, p, load->contour[s].first);
+        if (line >= 0) {
+            int before = line_before(place, s);
+            int32_t h = before == NOWHERE ? z : first_of(place, before)->z_q8;
+            if (before == line || h == z || top == h || (h > z) != (top > h))
+                continue;
+        }
+        int64_t up = fix_abs(top - z);
+        int64_t along = edge_length(place->map, p, spot->first);
         if (up * run > rise * along) {
             ruler = s;
             rise = up;
@@ -340,17 +88,42 @@ static int ruler_inside(const place_t *place, yb_index_t p)
     return ruler;
 }
 
+/* Is the leaf narrower at point p than the summit is far: is a point of the same height across it
+ * nearer? Then p stands by a ridge, which the skeleton will follow.
+ */
+static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
+{
+    const yb_map_t *map = place->map;
+    const yb_load_t *load = place->load;
+    int32_t far = edge_length(map, p, summit);
+    yb_triangle_t first = first_at(map, load, p);
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
+        int at = corner_of(map, t, p);
+        yb_index_t q = map->triangle[t][next3(at)];
+        if (load->region[t] == place->region && mark_of(load, t, at) == YB_RULE_NONE &&
+            map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
+            return true;
+    }
+    return false;
+}
+
+/* All of a leaf's points to its summit. First all wishes, then all links: a wish sees the mesh that
+ * the others saw.
+ */
 static yb_status_t fan(const place_t *place, int line)
 {
     yb_load_t *load = place->load;
     const yb_contour_t *contour = &load->contour[line];
     for (int k = 0; k < contour->count; k++) {
         yb_index_t p = (yb_index_t)(contour->first + k);
-        int s = ruler_inside(place, p);
-        if (s < 0)
-            continue;
-        yb_index_t summit = load->contour[s].first;
-        if (mesh_sees(place->map, load, p, summit) &&
+        int s = ruler_of(place, p, -1);
+        yb_index_t summit = s < 0 ? p : load->contour[s].first;
+        load->branch[p].parent = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
+    }
+    for (int k = 0; k < contour->count; k++) {
+        yb_index_t p = (yb_index_t)(contour->first + k);
+        yb_index_t summit = load->branch[p].parent;
+        if (summit != p && mesh_sees(place->map, load, p, summit) &&
             mesh_force_edge(place->map, load, p, summit, YB_RULE_SUMMIT) != YB_OK)
             return YB_ERR_LIMIT;
     }
@@ -359,35 +132,6 @@ static yb_status_t fan(const place_t *place, int line)
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ---------------------------------------------------
  */
-
-/* The peak beyond other lines of the region that rules point p of height z: the steepest way to it
- * (tan θ), the ground going on beyond the line the way it goes to it. -1: none.
- */
-static int ruler_beyond(const place_t *place, yb_index_t p, int line)
-{
-    const yb_load_t *load = place->load;
-    int32_t z = place->map->vertex[p].z_q8;
-    int ruler = -1;
-    int64_t rise = 0;
-    int64_t run = 1;
-    for (int s = 0; s < all_contours(load); s++) {
-        int before = line_before(place, s);
-        if (before == NOWHERE || before == line)
-            continue;
-        int32_t h = first_of(place, before)->z_q8;
-        int32_t top = first_of(place, s)->z_q8;
-        if (h == z || (h > z) != (top > h) || top == h)
-            continue;
-        int64_t up = fix_abs(top - z);
-        int64_t along = length_between(place->map, p, load->contour[s].first);
-        if (ruler < 0 || up * run > rise * along) {
-            ruler = s;
-            rise = up;
-            run = along;
-        }
-    }
-    return ruler;
-}
 
 /* Distance of point p from the segment ab, in 1/64 steps. */
 static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
@@ -407,42 +151,71 @@ static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_inde
     return (int32_t)(fix_abs(off) / (int32_t)(fix_sqrt((uint64_t)square)));
 }
 
-enum {
-    TRIES = 4 /* of the next nearest points, before one stays unlinked */
-};
+/* The nearest way from p to the region's lines of height h. */
+static int32_t shortest_way(const place_t *place, yb_index_t p, int32_t h)
+{
+    const yb_load_t *load = place->load;
+    int32_t shortest = INT32_MAX;
+    for (int c = 0; c < load->contour_count; c++) {
+        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+            continue;
+        for (int k = 0; k < load->contour[c].count; k++)
+            shortest = fix_min(
+                shortest, edge_length(place->map, p, (yb_index_t)(load->contour[c].first + k)));
+    }
+    return shortest;
+}
 
+/* A point and how far it is from a slope line. */
+typedef struct {
+    int32_t off;
+    int point; /* -1: none */
+} near_t;
+
+/* The point of the region's lines of height h that is nearest to the segment from p to its peak and
+ * comes after `last`, of those that are not farther from p than `far`.
+ */
+static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int32_t h, int32_t far,
+                        near_t last)
+{
+    const yb_load_t *load = place->load;
+    near_t nearest = {INT32_MAX, -1};
+    for (int c = 0; c < load->contour_count; c++) {
+        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+            continue;
+        for (int k = 0; k < load->contour[c].count; k++) {
+            yb_index_t q = (yb_index_t)(load->contour[c].first + k);
+            if (edge_length(place->map, p, q) > far)
+                continue;
+            int32_t off = distance(place->map, q, p, peak);
+            if ((off > last.off || (off == last.off && q > last.point)) && off < nearest.off)
+                nearest = (near_t){off, q};
+        }
+    }
+    return nearest;
+}
+
+/* Links p to the next line where the segment to its peak comes nearest to a point of it. Only to
+ * points that are at most a quarter farther than the nearest: where there is none, the slope leads
+ * elsewhere, whatever the peak.
+ */
 static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
 {
-    yb_map_t *map = place->map;
     yb_load_t *load = place->load;
-    int s = ruler_beyond(place, p, line);
+    int s = ruler_of(place, p, line);
     if (s < 0)
         return YB_OK;
     yb_index_t peak = load->contour[s].first;
     int32_t h = first_of(place, line_before(place, s))->z_q8;
-    int32_t last = -1;
-    int last_q = -1;
-    for (int tries = 0; tries < TRIES; tries++) {
-        int nearest = -1;
-        int32_t least = INT32_MAX;
-        for (int c = 0; c < load->contour_count; c++) {
-            if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
-                continue;
-            for (int k = 0; k < load->contour[c].count; k++) {
-                yb_index_t q = (yb_index_t)(load->contour[c].first + k);
-                int32_t off = distance(map, q, p, peak);
-                if ((off > last || (off == last && q > last_q)) && off < least) {
-                    nearest = q;
-                    least = off;
-                }
-            }
-        }
-        if (nearest < 0)
+    int32_t far = shortest_way(place, p, h);
+    far += far >> 2;
+    near_t near = {-1, -1};
+    for (int tries = 0; tries < MOST_TRIES; tries++) {
+        near = next_near(place, p, peak, h, far, near);
+        if (near.point < 0)
             return YB_OK;
-        if (mesh_sees(map, load, p, (yb_index_t)nearest))
-            return mesh_force_edge(map, load, p, (yb_index_t)nearest, YB_RULE_SLOPE);
-        last = least;
-        last_q = nearest;
+        if (mesh_sees(place->map, load, p, (yb_index_t)near.point))
+            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point, YB_RULE_SLOPE);
     }
     return YB_OK;
 }
@@ -481,7 +254,7 @@ static yb_status_t apply_rules(const place_t *place)
     if (lines == 1)
         return fan(place, line);
     look_beyond(place);
-    if (join_peaks(place) != YB_OK)
+    if (saddles_add(place) != YB_OK)
         return YB_ERR_LIMIT;
     for (int c = 0; c < load->contour_count; c++) {
         if (!bounds(place, c) || !is_outer(place, c))
@@ -494,10 +267,25 @@ static yb_status_t apply_rules(const place_t *place)
     return YB_OK;
 }
 
+/* Does an earlier line, or the left side of this one, bound the region too? */
+static bool seen_before(const yb_load_t *load, int side, yb_index_t region)
+{
+    for (int k = 0; k < side; k++) {
+        const yb_contour_t *c = &load->contour[k >> 1];
+        if (is_line(c) && ((k & 1) == 0 ? c->left : c->right) == region)
+            return true;
+    }
+    return false;
+}
+
 yb_status_t links_add(yb_map_t *map, yb_load_t *load)
 {
-    for (int r = 0; r < load->region_count; r++) {
-        place_t place = {map, load, (yb_index_t)r};
+    /* Regions in the order of the lines that bound them, the left one first. */
+    for (int side = 0; side < 2 * load->contour_count; side++) {
+        const yb_contour_t *c = &load->contour[side >> 1];
+        place_t place = {map, load, (side & 1) == 0 ? c->left : c->right};
+        if (!is_line(c) || seen_before(load, side, place.region))
+            continue;
         if (apply_rules(&place) != YB_OK)
             return YB_ERR_LIMIT;
     }
@@ -526,7 +314,7 @@ yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
         if (v < load->first_skeleton)
             continue;
         const yb_branch_t *branch = &load->branch[v];
-        if (branch->parent == w || (branch->meets && branch->other == w))
+        if (branch->parent == w || branch->other == w)
             return YB_RULE_SKELETON;
     }
     return YB_RULE_NONE;

@@ -12,6 +12,8 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "fix.h"
+
 enum {
     UNKNOWN_HEIGHT = INT32_MIN,
     MARK_SHIFT = 8 * sizeof(yb_entry_t) - 4,
@@ -40,10 +42,7 @@ static inline yb_rule_t mark_of(const yb_load_t *load, yb_triangle_t t, int edge
 }
 
 /* Which corner of triangle t vertex v is; v is one of them. */
-static inline int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
-{
-    return map->triangle[t][0] == v ? 0 : map->triangle[t][1] == v ? 1 : 2;
-}
+int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
 
 static inline bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
 {
@@ -53,15 +52,12 @@ static inline bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
  */
-static inline int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c)
-{
-    const yb_vertex_t *v = map->vertex;
-    int32_t abx = (v[b].x_q8 >> 2) - (v[a].x_q8 >> 2);
-    int32_t aby = (v[b].y_q8 >> 2) - (v[a].y_q8 >> 2);
-    int32_t acx = (v[c].x_q8 >> 2) - (v[a].x_q8 >> 2);
-    int32_t acy = (v[c].y_q8 >> 2) - (v[a].y_q8 >> 2);
-    return abx * acy - aby * acx;
-}
+int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c);
+
+int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c);
+
+/* Length of an edge, q8: see fix_length. */
+int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b);
 
 /* Checks the contours against the frame, tells open from closed ones, adds the corners that no
  * line ends at, and gives every corner its height (SPEC 1.4, 2.1).
@@ -128,28 +124,23 @@ YB_MUST_CHECK yb_status_t skeleton_add(yb_map_t *map, yb_load_t *load);
 void relief_prepare(yb_map_t *map, const yb_load_t *load);
 
 /* The triangle after t (before t) in counter-clockwise order round vertex v, or NO_TRIANGLE. */
-static inline yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
-                                      yb_index_t v)
-{
-    return neighbour_of(load, t, prev3(corner_of(map, t, v)));
-}
+yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v);
 
-static inline yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
-                                       yb_index_t v)
-{
-    return neighbour_of(load, t, corner_of(map, t, v));
-}
+yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v);
+
+/* The triangle across edge i of t, which is not on the frame, and which corner of it lies opposite.
+ */
+yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
+                     int *corner);
+
+/* Do all corners lie at one height? */
+bool is_flat(const yb_map_t *map, yb_triangle_t t);
+
+/* All triangles at v, counter-clockwise from the first: the one after t, or NO_TRIANGLE. */
+yb_triangle_t turn_on(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v,
+                      yb_triangle_t first);
 
 /* The rightmost triangle at v: the first one counter-clockwise if v is on the frame, any if not. */
-static inline yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
-{
-    yb_triangle_t start = load->star[v];
-    for (yb_triangle_t t = start;;) {
-        yb_triangle_t before = turn_right(map, load, t, v);
-        if (before == NO_TRIANGLE || before == start)
-            return t;
-        t = before;
-    }
-}
+yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v);
 
 #endif

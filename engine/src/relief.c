@@ -119,8 +119,7 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
     int64_t sum_y = 0;
     int64_t sum_z = 0;
     yb_triangle_t first = first_at(map, load, v);
-    yb_triangle_t t = first;
-    do {
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         const yb_vertex_t *a = &map->vertex[map->triangle[t][0]];
         const yb_vertex_t *b = &map->vertex[map->triangle[t][1]];
         const yb_vertex_t *c = &map->vertex[map->triangle[t][2]];
@@ -135,8 +134,7 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
             sum_y += (int64_t)abz * acx - (int64_t)abx * acz;
             sum_z += abx * acy - aby * acx;
         }
-        t = turn_left(map, load, t, v);
-    } while (t != NO_TRIANGLE && t != first);
+    }
     map->vertex[v].gx_q11 = 0;
     map->vertex[v].gy_q11 = 0;
     if (sum_z == 0)

@@ -12,14 +12,7 @@
  * Heights: from where a branch began it falls (or rises) evenly towards its dead end, the longest
  * way first, or, where two branches meet, to half way between the heights: a saddle.
  */
-#include "fix.h"
 #include "mesh.h"
-
-static int32_t length_between(const yb_map_t *map, yb_index_t a, yb_index_t b)
-{
-    const yb_vertex_t *v = map->vertex;
-    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
-}
 
 /* Is edge i of t one to be split: of one height, and no contour or link? */
 static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
@@ -31,15 +24,18 @@ static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t 
 }
 
 /* The vertex across edge i of t; the edge is not on the frame. */
-static yb_index_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
+static yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
 {
-    yb_triangle_t u = neighbour_of(load, t, i);
-    return map->triangle[u][prev3(corner_of(map, u, map->triangle[t][next3(i)]))];
+    int apex = 0;
+    yb_triangle_t u = across(map, load, t, i, &apex);
+    return map->triangle[u][apex];
 }
 
-/* Splits edge i of t; the new point's height is that of the edge until heights are known. */
+/* Splits edge i of t, and says what its middle is reached from; its height is that of the edge
+ * until heights are known.
+ */
 static yb_status_t split_bridge(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i,
-                                yb_index_t parent, yb_index_t other, uint32_t way)
+                                yb_index_t parent, yb_index_t other)
 {
     const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
     const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
@@ -47,90 +43,181 @@ static yb_status_t split_bridge(yb_map_t *map, yb_load_t *load, yb_triangle_t t,
     if (mesh_add_vertex(map, load, (uint16_t)((a->x_q8 + b->x_q8) >> 1),
                         (uint16_t)((a->y_q8 + b->y_q8) >> 1), a->z_q8) != YB_OK)
         return YB_ERR_LIMIT;
-    yb_branch_t *branch = &load->branch[m];
-    branch->parent = parent;
-    branch->other = other;
-    branch->way = way;
-    branch->grown = false;
-    branch->meets = other != m;
+    load->branch[m] = (yb_branch_t){.parent = parent, .other = other, .end = m};
     mesh_split(map, load, t, i, m);
     return YB_OK;
 }
 
+static bool meets(const yb_load_t *load, yb_index_t m)
+{
+    return load->branch[m].other != m;
+}
+
+/* The first point of the branch that v belongs to, and how far that is from v. */
+static yb_index_t beginning_of(const yb_map_t *map, const yb_load_t *load, yb_index_t v,
+                               int32_t *length)
+{
+    while (load->branch[v].parent >= load->first_skeleton) {
+        *length += edge_length(map, load->branch[v].parent, v);
+        v = load->branch[v].parent;
+    }
+    return v;
+}
+
+/* How steep the ground is from which the branch with the first point m comes, in 1/256: the
+ * steepest edge that goes on beyond, or else that to m. Where branches from two peaks meet, ways
+ * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1).
+ */
+static uint32_t steepness(const yb_map_t *map, const yb_load_t *load, yb_index_t m)
+{
+    yb_index_t p = load->branch[m].parent;
+    int32_t up = map->vertex[p].z_q8 - map->vertex[m].z_q8;
+    int64_t slope = 0;
+    yb_triangle_t first = first_at(map, load, p);
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
+        yb_index_t q = map->triangle[t][next3(corner_of(map, t, p))];
+        int32_t on = map->vertex[q].z_q8 - map->vertex[p].z_q8;
+        if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
+            int64_t steep = ((int64_t)fix_abs(on) << 8) / edge_length(map, p, q);
+            slope = steep > slope ? steep : slope;
+        }
+    }
+    if (slope == 0)
+        slope = ((int64_t)fix_abs(up) << 8) / edge_length(map, p, m);
+    return (uint32_t)(slope < 1 ? 1 : slope > 1 << 14 ? 1 << 14 : slope);
+}
+
+/* A way and one edge more, weighted, as far as 32 bits go. */
+static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_index_t a,
+                        yb_index_t b)
+{
+    uint64_t sum = way + (uint64_t)weight * (uint32_t)(edge_length(map, a, b) >> 5);
+    return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
+}
+
+/* The edges of the mesh in a fixed order, however its triangles are numbered. */
+typedef struct {
+    yb_index_t low, high;
+    yb_triangle_t t;
+    int edge;
+} bridge_t;
+
+static bool comes_before(const bridge_t *a, const bridge_t *b)
+{
+    return a->low < b->low || (a->low == b->low && a->high < b->high);
+}
+
+static bridge_t bridge_at(const yb_map_t *map, yb_triangle_t t, int i)
+{
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    return (bridge_t){a < b ? a : b, a < b ? b : a, t, i};
+}
+
+/* Is the bridge, seen from its triangle's third corner, one where a branch begins? If so, *other is
+ * the second point that it is reached from, or the new point m itself.
+ */
+static bool begins_branch(const yb_map_t *map, const yb_load_t *load, const bridge_t *bridge,
+                          yb_index_t m, yb_index_t *other)
+{
+    int32_t h = map->vertex[bridge->low].z_q8;
+    yb_index_t p = map->triangle[bridge->t][prev3(bridge->edge)];
+    int32_t up = map->vertex[p].z_q8 - h;
+    if (p >= load->first_skeleton || up == 0 ||
+        neighbour_of(load, bridge->t, bridge->edge) == NO_TRIANGLE)
+        return false;
+    yb_index_t q = apex_across(map, load, bridge->t, bridge->edge);
+    int32_t up_q = map->vertex[q].z_q8 - h;
+    /* A point of another branch has no height of its own yet. */
+    *other = q >= load->first_skeleton || up_q != 0 ? q : m;
+    return up_q == 0 || (up > 0) == (up_q > 0); /* else the ground goes on falling */
+}
+
 /* Branches begin at bridges that have a point of another height on one side, and on the other flat
- * ground, or another such point: then a bridge is all there is.
+ * ground, or another such point: then a bridge is all there is. In the order of their ends'
+ * numbers.
  */
 static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 {
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++) {
-            yb_index_t p = map->triangle[t][prev3(i)];
-            if (!is_bridge(map, load, t, i) || neighbour_of(load, t, i) == NO_TRIANGLE)
-                continue;
-            int32_t h = map->vertex[map->triangle[t][i]].z_q8;
-            int32_t up = p < load->first_skeleton ? map->vertex[p].z_q8 - h : 0;
-            if (up == 0)
-                continue;
-            yb_index_t q = across(map, load, t, i);
-            int32_t up_q = map->vertex[q].z_q8 - h;
+    for (int low = 0; low < load->first_skeleton; low++) {
+        for (;;) {
+            yb_index_t v = (yb_index_t)low;
             yb_index_t m = (yb_index_t)map->vertex_count;
-            if (q < load->first_skeleton && up_q != 0) {
-                if ((up > 0) != (up_q > 0))
-                    continue; /* the ground goes on falling: no bridge */
-            } else if (q < load->first_skeleton) {
-                q = m;
+            yb_index_t other = m;
+            bridge_t next = {.high = v};
+            yb_triangle_t first = first_at(map, load, v);
+            for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
+                /* Both edges at v: a bridge may be one of either of its triangles. */
+                for (int k = 0; k < 2; k++) {
+                    int i = k == 0 ? corner_of(map, t, v) : prev3(corner_of(map, t, v));
+                    bridge_t bridge = bridge_at(map, t, i);
+                    yb_index_t q = m;
+                    if (bridge.low == v && is_bridge(map, load, t, i) &&
+                        (next.high == v || bridge.high < next.high) &&
+                        begins_branch(map, load, &bridge, m, &q)) {
+                        next = bridge;
+                        other = q;
+                    }
+                }
             }
-            if (split_bridge(map, load, t, i, p, q, 0) != YB_OK)
+            if (next.high == v)
+                break;
+            yb_index_t p = map->triangle[next.t][prev3(next.edge)];
+            if (other < p) { /* the bridge is one of either side: the same from both */
+                yb_index_t swap = p;
+                p = other;
+                other = swap;
+            }
+            if (split_bridge(map, load, next.t, next.edge, p, other) != YB_OK)
                 return YB_ERR_LIMIT;
-            load->branch[m].way = (uint32_t)length_between(map, p, m);
+            load->branch[m].way = add_way(map, 0, steepness(map, load, m), p, m);
         }
     }
     return YB_OK;
 }
 
 /* The next bridge that point v looks at. */
-static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, yb_triangle_t *at,
-                        int *edge)
+static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
 {
+    bool found = false;
     yb_triangle_t first = first_at(map, load, v);
-    yb_triangle_t t = first;
-    do {
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         int i = next3(corner_of(map, t, v));
-        if (is_bridge(map, load, t, i)) {
-            *at = t;
-            *edge = i;
-            return true;
+        bridge_t bridge = bridge_at(map, t, i);
+        if (is_bridge(map, load, t, i) && (!found || comes_before(&bridge, next))) {
+            found = true;
+            *next = bridge;
         }
-        t = turn_left(map, load, t, v);
-    } while (t != NO_TRIANGLE && t != first);
-    return false;
+    }
+    return found;
 }
 
-/* Splits all bridges that v looks at. */
+/* Splits all bridges that v looks at. One on the frame counts as met by its mirror image. */
 static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
 {
-    yb_triangle_t t = 0;
-    int i = 0;
-    while (find_bridge(map, load, v, &t, &i)) {
+    int32_t unused = 0;
+    uint32_t weight = steepness(map, load, beginning_of(map, load, v, &unused));
+    bridge_t bridge = {0};
+    while (find_bridge(map, load, v, &bridge)) {
+        yb_triangle_t t = bridge.t;
+        int i = bridge.edge;
         yb_index_t m = (yb_index_t)map->vertex_count;
-        yb_index_t q = m; /* flat ground beyond */
-        bool leaves = neighbour_of(load, t, i) == NO_TRIANGLE;
-        if (!leaves) {
-            q = across(map, load, t, i);
+        yb_index_t q = v;
+        if (neighbour_of(load, t, i) != NO_TRIANGLE) {
+            q = apex_across(map, load, t, i);
             if (q < load->first_skeleton &&
                 map->vertex[q].z_q8 == map->vertex[map->triangle[t][i]].z_q8)
-                q = m;
+                q = m; /* flat ground: it will grow on */
         }
-        if (split_bridge(map, load, t, i, v, q, 0) != YB_OK)
+        if (split_bridge(map, load, t, i, v, q) != YB_OK)
             return YB_ERR_LIMIT;
-        load->branch[m].way = load->branch[v].way + (uint32_t)length_between(map, v, m);
-        load->branch[m].meets = load->branch[m].meets || leaves;
+        load->branch[m].way = add_way(map, load->branch[v].way, weight, v, m);
     }
     load->branch[v].grown = true;
     return YB_OK;
 }
 
-/* The shortest way first, so that branches meet half way. */
+/* The shortest way first, so that branches meet where the slopes from both sides would. */
 static yb_status_t grow_all(yb_map_t *map, yb_load_t *load)
 {
     for (;;) {
@@ -154,40 +241,46 @@ static int32_t keep_off(int32_t z, int32_t h, int32_t from, int32_t least)
     return from > h ? fix_max(z, h + least) : fix_min(z, h - least);
 }
 
-/* The height at which the branch that v belongs to began, and how long it is from there to v. */
-static int32_t began_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v, int32_t *length)
-{
-    while (v >= load->first_skeleton) {
-        yb_index_t parent = load->branch[v].parent;
-        *length += length_between(map, parent, v);
-        v = parent;
-    }
-    return map->vertex[v].z_q8;
-}
-
-/* Where two branches meet, or one leaves the frame: a saddle half way up to the height of the sides
- * if both began at one height, else on the even slope from one beginning to the other.
+/* Where two branches meet: a saddle half way up to the height of the sides if both began at one
+ * height, else on the even slope from one beginning to the other.
  */
 static int32_t meeting_height(const yb_map_t *map, const yb_load_t *load, yb_index_t m)
 {
-    const yb_branch_t *branch = &load->branch[m];
     int32_t h = map->vertex[m].z_q8;
-    int32_t way_a = 0;
-    int32_t way_b = 0;
-    int32_t a = began_at(map, load, m, &way_a);
-    int32_t b = a;
-    if (branch->other != m) {
-        way_b = length_between(map, m, branch->other);
-        b = began_at(map, load, branch->other, &way_b);
+    yb_index_t side[2] = {load->branch[m].parent, load->branch[m].other};
+    int32_t way[2];
+    int32_t z[2];
+    for (int k = 0; k < 2; k++) {
+        yb_index_t from = side[k];
+        way[k] = edge_length(map, m, from);
+        if (from >= load->first_skeleton) {
+            yb_index_t first = beginning_of(map, load, from, &way[k]);
+            from = load->branch[first].parent;
+            way[k] += edge_length(map, first, from);
+        }
+        z[k] = map->vertex[from].z_q8;
     }
-    int32_t z = (a + h) / 2;
-    if (a != b)
-        z = a + (int32_t)((int64_t)(b - a) * way_a / fix_max(way_a + way_b, 1));
-    return keep_off(z, h, a, fix_abs(h - a) / 8);
+    int32_t at = z[0] == z[1]
+                     ? (z[0] + h) / 2
+                     : z[0] + (int32_t)((int64_t)(z[1] - z[0]) * way[0] / (way[0] + way[1]));
+    return keep_off(at, h, z[0], fix_abs(h - z[0]) / 8);
 }
 
-/* From a dead end back to its beginning: how far each point is from the farthest end beyond it
- * (way), and which meeting point that is (other; itself: a dead end).
+/* How far the contour is on from a point with no branch beyond it. */
+static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
+{
+    int32_t way = 0;
+    yb_triangle_t first = first_at(map, load, v);
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
+        yb_index_t side = map->triangle[t][next3(corner_of(map, t, v))];
+        if (side < load->first_skeleton && map->vertex[side].z_q8 == map->vertex[v].z_q8)
+            way = fix_max(way, edge_length(map, v, side));
+    }
+    return (uint32_t)way;
+}
+
+/* From the ends back to the beginnings: how far the farthest end beyond each point is, and whether
+ * that is a meeting point. A point has a higher number than its parent.
  */
 static void measure_ways(const yb_map_t *map, yb_load_t *load)
 {
@@ -196,47 +289,37 @@ static void measure_ways(const yb_map_t *map, yb_load_t *load)
     for (int i = map->vertex_count - 1; i >= load->first_skeleton; i--) {
         yb_index_t v = (yb_index_t)i;
         yb_branch_t *branch = &load->branch[v];
-        if (!branch->meets && branch->way == 0) {
-            /* A dead end: it goes on to the contour. */
-            yb_triangle_t first = first_at(map, load, v);
-            yb_triangle_t t = first;
-            do {
-                yb_index_t side = map->triangle[t][next3(corner_of(map, t, v))];
-                if (side < load->first_skeleton && map->vertex[side].z_q8 == map->vertex[v].z_q8) {
-                    uint32_t way = (uint32_t)length_between(map, v, side);
-                    if (way > branch->way)
-                        branch->way = way;
-                }
-                t = turn_left(map, load, t, v);
-            } while (t != NO_TRIANGLE && t != first);
-        }
+        if (branch->way == 0 && !meets(load, v))
+            branch->way = way_to_contour(map, load, v);
         for (int k = 0; k < 2; k++) {
-            if (k == 1 && (!branch->meets || branch->other == v))
-                break;
             yb_index_t p = k == 0 ? branch->parent : branch->other;
-            if (p < load->first_skeleton || load->branch[p].meets)
+            if (p == v || p < load->first_skeleton || meets(load, p))
                 continue;
-            uint32_t way = branch->way + (uint32_t)length_between(map, p, v);
+            uint32_t way = branch->way + (uint32_t)edge_length(map, p, v);
             if (way > load->branch[p].way) {
                 load->branch[p].way = way;
-                load->branch[p].other = branch->meets ? v : branch->other == v ? p : branch->other;
+                load->branch[p].end = meets(load, v) ? v : branch->end == v ? p : branch->end;
             }
         }
     }
 }
 
-/* Even slopes from the beginnings to the ends. */
-static void set_heights(yb_map_t *map, const yb_load_t *load)
+/* Meeting points first, then even slopes from the beginnings to the ends. */
+static void set_heights(yb_map_t *map, yb_load_t *load)
 {
+    for (int i = load->first_skeleton; i < map->vertex_count; i++) {
+        if (meets(load, (yb_index_t)i))
+            map->vertex[i].z_q8 = meeting_height(map, load, (yb_index_t)i);
+    }
     for (int i = load->first_skeleton; i < map->vertex_count; i++) {
         yb_index_t v = (yb_index_t)i;
         const yb_branch_t *branch = &load->branch[v];
-        if (branch->meets)
+        if (meets(load, v))
             continue;
         int32_t h = map->vertex[v].z_q8;
         int32_t from = map->vertex[branch->parent].z_q8;
-        int32_t to = branch->other == v ? h : map->vertex[branch->other].z_q8;
-        int32_t step = length_between(map, branch->parent, v);
+        int32_t to = map->vertex[branch->end].z_q8; /* h, if that is v itself */
+        int32_t step = edge_length(map, branch->parent, v);
         int32_t z = from + (int32_t)((int64_t)(to - from) * step / (step + (int64_t)branch->way));
         bool begins = branch->parent < load->first_skeleton;
         map->vertex[v].z_q8 = keep_off(z, h, from, begins ? fix_abs(h - from) / 8 : 0);
@@ -252,14 +335,6 @@ yb_status_t skeleton_add(yb_map_t *map, yb_load_t *load)
     if (status != YB_OK)
         return status;
     measure_ways(map, load);
-    for (int v = load->first_skeleton; v < map->vertex_count; v++) {
-        if (load->branch[v].meets)
-            load->branch[v].way = (uint32_t)meeting_height(map, load, (yb_index_t)v);
-    }
-    for (int v = load->first_skeleton; v < map->vertex_count; v++) {
-        if (load->branch[v].meets)
-            map->vertex[v].z_q8 = (int32_t)load->branch[v].way;
-    }
     set_heights(map, load);
     return YB_OK;
 }

@@ -5,7 +5,6 @@
  * It gets a spot height at its widest place: a summit if the ground rises towards it from outside,
  * the bottom of a pit if it falls.
  */
-#include "fix.h"
 #include "mesh.h"
 
 yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint16_t y_q8,
@@ -21,18 +20,8 @@ yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint1
     return YB_OK;
 }
 
-static bool is_flat(const yb_map_t *map, yb_triangle_t t)
-{
-    const yb_index_t *v = map->triangle[t];
-    return map->vertex[v[0]].z_q8 == map->vertex[v[1]].z_q8 &&
-           map->vertex[v[0]].z_q8 == map->vertex[v[2]].z_q8;
-}
-
-static int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b)
-{
-    const yb_vertex_t *v = map->vertex;
-    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
-}
+/* --- How high ------------------------------------------------------------------------------------
+ */
 
 static bool share_line(const yb_load_t *load, yb_triangle_t r, yb_triangle_t s)
 {
@@ -44,8 +33,8 @@ static bool share_line(const yb_load_t *load, yb_triangle_t r, yb_triangle_t s)
     return false;
 }
 
-/* The same where all ground next to the lines is flat too: from the nearest other height in the
- * regions beyond them.
+/* The smallest difference of height h from the ground in the regions beyond a region's lines, where
+ * all ground next to the lines is flat as well; 0: there is no other height.
  */
 static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
                                 int32_t h)
@@ -54,164 +43,203 @@ static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, yb_t
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++) {
             int32_t up = h - map->vertex[map->triangle[t][i]].z_q8;
-            if (up != 0 && (rise == 0 || fix_abs(up) < fix_abs(rise)) &&
-                share_line(load, load->region[t], region))
-                rise = up;
+            bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || up == -rise;
+            if (up != 0 && nearer && share_line(load, load->region[t], region))
+                rise = up > 0 || up != -rise ? up : rise;
         }
     }
     return rise;
 }
 
-/* How much the ground rises, on the mean along the lines round a flat region, from the next points
- * outside to the region: one interval where lines lie regularly. Where it rises on one side as much
- * as it falls on the other, it is taken to rise. 0: it does neither. Lengths are below 2^17 and
- * rises 2^18, so each term is below 2^35.
+/* What a flat region is like, and the ground that its lines look at on their outer sides. Lengths
+ * are in 1/256 step, areas twice as large in square 1/64 steps: below 2^30 all together.
  */
-static int32_t rise_outside(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region)
-{
-    int32_t h = 0;
-    int64_t rise = 0;
-    int64_t change = 0;
-    int64_t length = 0;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3 && load->region[t] == region; i++) {
-            if (mark_of(load, t, i) != YB_RULE_CONTOUR)
-                continue;
-            yb_index_t a = map->triangle[t][i];
-            yb_index_t b = map->triangle[t][next3(i)];
-            h = map->vertex[a].z_q8;
-            yb_triangle_t u = neighbour_of(load, t, i);
-            yb_index_t outside = map->triangle[u][prev3(corner_of(map, u, b))];
-            int32_t up = h - map->vertex[outside].z_q8;
-            if (up == 0)
-                continue;
-            rise += (int64_t)edge_length(map, a, b) * up;
-            change += (int64_t)edge_length(map, a, b) * fix_abs(up);
-            length += edge_length(map, a, b);
-        }
-    }
-    if (length == 0)
-        return rise_farther_out(map, load, region, h);
-    return (int32_t)(rise < 0 ? -change / length : change / length);
-}
-
-/* Where a region is widest, as far as its triangles tell. */
 typedef struct {
-    yb_triangle_t t;
-    int edge;     /* the longest edge that no line runs along, or -1: t is all there is */
-    int32_t wide; /* its length */
-} widest_t;
+    int64_t area;
+    int64_t length;  /* of its lines */
+    int64_t sloping; /* of those of their segments beyond which there is another height */
+    int64_t rise;    /* sum of length times rise towards the region: below 2^17 · 2^18 · 2^16 */
+    int64_t change;  /* the same without signs */
+    int64_t outside; /* area of the triangles beyond those segments */
+} surroundings_t;
 
-static void find_widest(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
-                        widest_t *widest)
+static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
+                       surroundings_t *found)
 {
-    *widest = (widest_t){.wide = -1};
+    *found = (surroundings_t){0};
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (load->region[t] != region)
             continue;
-        if (widest->wide < 0) {
-            widest->t = t;
-            widest->edge = -1;
-            widest->wide = 0;
-        }
+        const yb_index_t *v = map->triangle[t];
+        found->area += orientation(map, v[0], v[1], v[2]);
         for (int i = 0; i < 3; i++) {
-            if (load->neighbour[t][i] >= NO_TRIANGLE)
+            if (mark_of(load, t, i) != YB_RULE_CONTOUR)
                 continue;
-            int32_t wide = edge_length(map, map->triangle[t][i], map->triangle[t][next3(i)]);
-            if (wide > widest->wide) {
-                widest->wide = wide;
-                widest->t = t;
-                widest->edge = i;
-            }
+            int apex = 0;
+            const yb_index_t *w = map->triangle[across(map, load, t, i, &apex)];
+            int32_t up = map->vertex[v[i]].z_q8 - map->vertex[w[apex]].z_q8;
+            int64_t length = edge_length(map, v[i], v[next3(i)]);
+            found->length += length;
+            if (up == 0)
+                continue;
+            found->sloping += length;
+            found->rise += length * up;
+            found->change += length * fix_abs(up);
+            found->outside += orientation(map, w[0], w[1], w[2]);
         }
     }
 }
 
-/* Twice the cosine of the angle at c in triangle abc, times |ca| |cb|: its sign. */
-static bool is_acute(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c)
-{
-    const yb_vertex_t *v = map->vertex;
-    int64_t x = (int64_t)(v[a].x_q8 - v[c].x_q8) * (v[b].x_q8 - v[c].x_q8);
-    int64_t y = (int64_t)(v[a].y_q8 - v[c].y_q8) * (v[b].y_q8 - v[c].y_q8);
-    return x + y > 0;
-}
-
-/* The widest place: in the middle of the longest edge; or, where that edge's triangle is acute (no
- * edge of it is longer), in the triangle's middle, with double weight at the corner opposite. That
- * corner's quarter and half weights keep a quarter-step lattice.
+/* How high a flat region of height h rises above its lines, or, negative, falls below them: as it
+ * would as a paraboloid that begins with the mean slope s outside: s · area / length of the lines.
+ * But between 1/8 and 7/8 of an interval, the mean rise outside; and by half of it where there is
+ * no slope to go by. 0: there is no other height round about.
  */
-static yb_status_t place_summit(yb_map_t *map, yb_load_t *load, const widest_t *widest, int32_t z)
+static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
+                           int32_t h)
 {
-    yb_triangle_t t = widest->t;
-    int edge = widest->edge;
-    int i = edge;
-    if (edge < 0) { /* opposite the longest edge, so that it is the largest angle */
-        i = 0;
-        for (int k = 1; k < 3; k++) {
-            if (edge_length(map, map->triangle[t][k], map->triangle[t][next3(k)]) >
-                edge_length(map, map->triangle[t][i], map->triangle[t][next3(i)]))
-                i = k;
-        }
-    } else {
-        for (int side = 0; side < 2 && edge >= 0; side++) {
-            yb_triangle_t s = side == 0 ? widest->t : neighbour_of(load, widest->t, widest->edge);
-            int k = side == 0 ? widest->edge
-                              : corner_of(map, s, map->triangle[widest->t][next3(widest->edge)]);
-            if (is_acute(map, map->triangle[s][k], map->triangle[s][next3(k)],
-                         map->triangle[s][prev3(k)])) {
-                t = s;
-                i = k;
-                edge = -1;
+    surroundings_t round;
+    look_round(map, load, region, &round);
+    if (round.sloping == 0) {
+        int32_t interval = rise_farther_out(map, load, region, h);
+        return interval / 2 != 0 ? interval / 2 : interval;
+    }
+    int32_t interval = (int32_t)(round.change / round.sloping);
+    /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
+     * than enough; the quotient of area and length is below 2^16. */
+    int64_t slope_q11 = round.change * 128 / round.outside;
+    slope_q11 = slope_q11 > 1 << 20 ? 1 << 20 : slope_q11;
+    int32_t rise = (int32_t)((slope_q11 * (round.area * 8 / round.length)) >> 11);
+    rise = fix_clamp(rise, interval >> 3, interval - (interval >> 3));
+    rise = fix_max(rise, 1);
+    return round.rise < 0 ? -rise : rise;
+}
+
+/* --- Where ---------------------------------------------------------------------------------------
+ */
+
+/* A place in the mesh: the middle of edge `edge` of triangle t; or, with `beyond`, half way from
+ * there to the triangle's third corner.
+ */
+typedef struct {
+    yb_triangle_t t;
+    int edge;
+    bool beyond;
+} spot_t;
+
+/* An edge's length and its ends, to find the longest, of equal ones that with the lowest numbers.
+ */
+typedef struct {
+    int32_t length;
+    yb_index_t low, high;
+} rank_t;
+
+static rank_t rank_of(const yb_map_t *map, yb_triangle_t t, int i)
+{
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    return (rank_t){edge_length(map, a, b), a < b ? a : b, a < b ? b : a};
+}
+
+static bool ranks_above(rank_t a, rank_t b)
+{
+    if (a.length != b.length)
+        return a.length > b.length;
+    return a.low < b.low || (a.low == b.low && a.high < b.high);
+}
+
+/* Is the angle at corner i acute? Plan differences are below 2^16: each product below 2^32. */
+static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
+{
+    const yb_vertex_t *a = &map->vertex[map->triangle[t][next3(i)]];
+    const yb_vertex_t *b = &map->vertex[map->triangle[t][prev3(i)]];
+    const yb_vertex_t *c = &map->vertex[map->triangle[t][i]];
+    return (int64_t)(a->x_q8 - c->x_q8) * (b->x_q8 - c->x_q8) +
+               (int64_t)(a->y_q8 - c->y_q8) * (b->y_q8 - c->y_q8) >
+           0;
+}
+
+/* The widest place of a region: the middle of the longest edge that no line runs along, for that is
+ * the chord of an empty circle. If just one of the two triangles at it is acute, the circle's
+ * centre lies in that one, and so does the place. A region of one triangle has its place inside.
+ */
+static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region)
+{
+    spot_t spot = {.beyond = true};
+    rank_t best = {.length = -1};
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+        for (int i = 0; i < 3 && load->region[t] == region; i++) {
+            rank_t rank = rank_of(map, t, i);
+            bool alone = load->neighbour[t][i] >= NO_TRIANGLE;
+            if (alone != spot.beyond ? spot.beyond : ranks_above(rank, best)) {
+                spot = (spot_t){t, i, alone};
+                best = rank;
             }
         }
     }
-    const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
-    const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
-    const yb_vertex_t *c = &map->vertex[map->triangle[t][prev3(i)]];
-    uint16_t x = (uint16_t)((a->x_q8 + b->x_q8) >> 1);
-    uint16_t y = (uint16_t)((a->y_q8 + b->y_q8) >> 1);
-    if (edge < 0) {
-        x = (uint16_t)((x + c->x_q8) >> 1);
-        y = (uint16_t)((y + c->y_q8) >> 1);
+    if (spot.beyond)
+        return spot;
+    int apex = 0;
+    yb_triangle_t u = across(map, load, spot.t, spot.edge, &apex);
+    bool here = is_acute(map, spot.t, prev3(spot.edge));
+    bool there = is_acute(map, u, apex);
+    if (there && !here)
+        spot = (spot_t){u, next3(apex), true};
+    else if (here && !there)
+        spot.beyond = true;
+    return spot;
+}
+
+/* ------------------------------------------------------------------------------------------------
+ */
+
+static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot, int32_t z)
+{
+    const yb_index_t *v = map->triangle[spot->t];
+    const yb_vertex_t *a = &map->vertex[v[spot->edge]];
+    const yb_vertex_t *b = &map->vertex[v[next3(spot->edge)]];
+    const yb_vertex_t *c = &map->vertex[v[prev3(spot->edge)]];
+    int32_t x = (a->x_q8 + b->x_q8) >> 1;
+    int32_t y = (a->y_q8 + b->y_q8) >> 1;
+    if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
+        x = (x + c->x_q8) >> 1;
+        y = (y + c->y_q8) >> 1;
     }
     yb_index_t p = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, x, y, z) != YB_OK)
+    if (mesh_add_vertex(map, load, (uint16_t)x, (uint16_t)y, z) != YB_OK)
         return YB_ERR_LIMIT;
-    mesh_split(map, load, t, edge, p);
+    mesh_split(map, load, spot->t, spot->beyond ? -1 : spot->edge, p);
     mesh_legalise(map, load, p);
-    yb_contour_t *summit = &load->contour[load->contour_count + load->summit_count++];
-    summit->first = p;
-    summit->count = 1;
-    summit->left = summit->right = (yb_index_t)load->region[load->star[p]];
-    summit->open = false;
+    yb_index_t region = (yb_index_t)load->region[load->star[p]];
+    load->contour[load->contour_count + load->summit_count++] =
+        (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
     return YB_OK;
 }
 
 yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
 {
-    /* Not only where the code has no summit: wherever there is one height and no other. */
+    enum {
+        FLAT = 1
+    };
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] = 1;
+        load->scratch[r] = FLAT;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (!is_flat(map, t))
             load->scratch[load->region[t]] = 0;
     }
-    /* A region may have to wait for its neighbour to get a height of its own: go round until
-     * nothing changes. */
+    /* A region may have to wait until its neighbour has a second height: round and round until
+     * nothing changes. What stays flat then is a map of one height. */
     for (bool changed = true; changed;) {
         changed = false;
         for (int c = 0; c < 2 * load->contour_count; c++) {
             const yb_contour_t *contour = &load->contour[c >> 1];
             yb_index_t region = (c & 1) == 0 ? contour->left : contour->right;
-            if (load->scratch[region] == 0)
-                continue;
-            int32_t rise = rise_outside(map, load, region);
+            int32_t h = map->vertex[contour->first].z_q8;
+            int32_t rise = load->scratch[region] == FLAT ? rise_inside(map, load, region, h) : 0;
             if (rise == 0)
                 continue;
-            int32_t half = rise / 2 != 0 ? rise / 2 : rise;
-            widest_t widest;
-            find_widest(map, load, region, &widest);
-            if (place_summit(map, load, &widest, map->vertex[contour->first].z_q8 + half) != YB_OK)
+            spot_t spot = widest_place(map, load, region);
+            if (add_summit(map, load, &spot, h + rise) != YB_OK)
                 return YB_ERR_LIMIT;
             load->scratch[region] = 0;
             changed = true;

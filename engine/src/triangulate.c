@@ -89,8 +89,9 @@ static bool illegal(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
     if (entry >= NO_TRIANGLE) /* the frame, or marked */
         return false;
     const yb_index_t *v = map->triangle[t];
-    int j = corner_of(map, entry, v[next3(i)]);
-    return in_circle(map, v[i], v[next3(i)], v[prev3(i)], map->triangle[entry][prev3(j)]);
+    int apex = 0;
+    yb_triangle_t u = across(map, load, t, i, &apex);
+    return in_circle(map, v[i], v[next3(i)], v[prev3(i)], map->triangle[u][apex]);
 }
 
 /* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
@@ -247,8 +248,7 @@ static yb_triangle_t towards(const yb_map_t *map, const yb_load_t *load, yb_inde
                              bool *is_edge)
 {
     yb_triangle_t first = first_at(map, load, a);
-    yb_triangle_t t = first;
-    do {
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, a, first)) {
         int at = corner_of(map, t, a);
         yb_index_t s = map->triangle[t][next3(at)];
         yb_index_t e = map->triangle[t][prev3(at)];
@@ -257,8 +257,7 @@ static yb_triangle_t towards(const yb_map_t *map, const yb_load_t *load, yb_inde
             return t;
         if (orientation(map, a, s, b) > 0 && orientation(map, a, b, e) > 0)
             return t;
-        t = turn_left(map, load, t, a);
-    } while (t != NO_TRIANGLE && t != first);
+    }
     return NO_TRIANGLE;
 }
 
@@ -345,15 +344,15 @@ mesh_step_t mesh_walk_begin(const yb_map_t *map, const yb_load_t *load, yb_index
 
 mesh_step_t mesh_walk_on(const yb_map_t *map, const yb_load_t *load, mesh_walk_t *walk)
 {
-    yb_triangle_t u = neighbour_of(load, walk->t, walk->edge);
-    int j = corner_of(map, u, map->triangle[walk->t][next3(walk->edge)]);
-    yb_index_t apex = map->triangle[u][prev3(j)];
+    int corner = 0;
+    yb_triangle_t u = across(map, load, walk->t, walk->edge, &corner);
+    yb_index_t apex = map->triangle[u][corner];
     walk->t = u;
     if (apex == walk->b)
         return WALK_ENDS;
     int32_t side = orientation(map, walk->a, walk->b, apex);
-    /* u = (left, right, apex), edge j being left-right: on through apex-left or right-apex. */
-    walk->edge = side > 0 ? next3(j) : prev3(j);
+    /* u = (left, right, apex): on through right-apex or apex-left. */
+    walk->edge = side > 0 ? prev3(corner) : corner;
     return side == 0 ? WALK_BLOCKED : WALK_CROSSES;
 }
 

@@ -34,19 +34,19 @@ uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_ban
     yb_view_orbit(&view, &viewer->map, azimuth_bam, YB_DEGREES(YB_VIEWER_ELEVATION),
                   YB_VIEWER_DISTANCE_Q8);
 
-    yb_frame_t *frame = &viewer->work.frame;
-    yb_frame_begin(frame, &viewer->map, &view, &screen);
+    yb_viewer_drawing_t *drawing = &viewer->work.drawing;
+    yb_frame_begin(&drawing->frame, &viewer->map, &view, &screen);
     yb_band_t rows = {.rows = YB_VIEWER_BAND_ROWS,
-                      .depth = viewer->depth,
-                      .pixels = viewer->pixels,
+                      .depth = drawing->depth,
+                      .pixels = drawing->pixels,
                       .pitch = YB_VIEWER_PITCH};
     uint32_t hash = FNV_START;
     for (uint16_t y = 0; y < YB_VIEWER_HEIGHT; y = (uint16_t)(y + YB_VIEWER_BAND_ROWS)) {
         rows.y = y;
-        yb_frame_band(frame, &rows);
-        hash = hash_bytes(hash, viewer->pixels, sizeof viewer->pixels);
+        yb_frame_band(&drawing->frame, &rows);
+        hash = hash_bytes(hash, drawing->pixels, sizeof drawing->pixels);
         if (band)
-            band(context, y, viewer->pixels);
+            band(context, y, drawing->pixels);
     }
     return hash;
 }

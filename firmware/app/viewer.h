@@ -39,13 +39,17 @@
 #define YB_VIEWER_EXAGGERATE_Q8 512
 
 typedef struct {
-    yb_map_t map;
-    union {
-        yb_load_t load;
-        yb_frame_t frame;
-    } work;
+    yb_frame_t frame;
     uint16_t depth[YB_VIEWER_WIDTH * YB_VIEWER_BAND_ROWS];
     uint8_t pixels[YB_VIEWER_PITCH * YB_VIEWER_BAND_ROWS];
+} yb_viewer_drawing_t;
+
+typedef struct {
+    yb_map_t map;
+    union { /* never both at once */
+        yb_load_t load;
+        yb_viewer_drawing_t drawing;
+    } work;
 } yb_viewer_t;
 
 /* Takes the finished rows y to y + YB_VIEWER_BAND_ROWS - 1, YB_VIEWER_PITCH bytes each; `pixels`

@@ -29,9 +29,11 @@ void yb_mark_end(void);
 static yb_map_t map;
 static union {
     yb_load_t load;
-    yb_frame_t frame;
+    struct {
+        yb_frame_t frame;
+        uint32_t band[BENCH_BAND_BYTES / 4];
+    } drawing;
 } work;
-static uint32_t band_memory[BENCH_BAND_BYTES / 4];
 
 /* The two texts differ, so that the compiler cannot make one function of both. */
 __attribute__((noinline)) void yb_mark_begin(void)
@@ -130,12 +132,12 @@ static uint32_t band_bytes(const setting_t *setting)
 static void draw(const setting_t *setting, const yb_view_t *view)
 {
     yb_band_t band = {.rows = setting->rows,
-                      .depth = (uint16_t *)(void *)band_memory,
+                      .depth = (uint16_t *)(void *)work.drawing.band,
                       .pitch = yb_screen_pitch(&setting->screen)};
     band.pixels = (uint8_t *)&band.depth[setting->screen.width * setting->rows];
-    yb_frame_begin(&work.frame, &map, view, &setting->screen);
+    yb_frame_begin(&work.drawing.frame, &map, view, &setting->screen);
     for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + setting->rows))
-        yb_frame_band(&work.frame, &band);
+        yb_frame_band(&work.drawing.frame, &band);
 }
 
 static void measure_frame(const setting_t *setting, int which)

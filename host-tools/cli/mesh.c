@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "code_file.h"
+#include "mesh_drawing.h"
 #include "obj_file.h"
 #include "output.h"
 #include "surface.h"
@@ -14,18 +15,28 @@ enum {
     OPTION_DEPTH = 256,
     OPTION_REFERENCE,
     OPTION_NO_DETAIL,
+    OPTION_STAGE,
+    OPTION_SVG,
+    OPTION_WIDTH,
+    OPTION_PLAIN,
     OPTION_FORCE,
     OPTION_HELP
 };
 enum {
     BASE_TRIANGLES = -1,
-    MOST_HALVINGS = 8
+    MOST_HALVINGS = 8,
+    DRAWING_WIDTH = 1000,
+    LEAST_WIDTH = 100
 };
 
 static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                         {"depth", required_argument, NULL, OPTION_DEPTH},
                                         {"reference", no_argument, NULL, OPTION_REFERENCE},
                                         {"no-detail", no_argument, NULL, OPTION_NO_DETAIL},
+                                        {"stage", required_argument, NULL, OPTION_STAGE},
+                                        {"svg", no_argument, NULL, OPTION_SVG},
+                                        {"width", required_argument, NULL, OPTION_WIDTH},
+                                        {"plain", no_argument, NULL, OPTION_PLAIN},
                                         {"force", no_argument, NULL, OPTION_FORCE},
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
@@ -34,18 +45,27 @@ typedef struct {
     const char *input, *output;
     long depth;
     bool reference, smooth, force;
+    bool svg;
+    bool draws;           /* a drawing, not a mesh */
+    bool drawing_options; /* some were given */
+    long width;           /* 0: not given */
+    yb_mesh_drawing_t drawing;
 } request_t;
+
+static const char *const stages[] = {"contours", "links", "triangles"};
 
 static int help(void)
 {
-    fputs("Usage: yamabiko mesh MAP.yb -o OUT.obj [OPTION ...]\n"
+    fputs("Usage: yamabiko mesh MAP.yb -o OUT.obj|OUT.svg|OUT.png [OPTION ...]\n"
           "\n"
           "Writes a map's triangles as a Wavefront OBJ file: metres, x east and y north from the\n"
           "south-west corner of the frame, z up above the datum; corners that triangles share are\n"
           "written once. Without --depth or --reference these are the base triangles, whose\n"
-          "corners are the points of the coded contours.\n"
+          "corners are the points of the coded contours and those that the rules added.\n"
+          "If the file ends .svg or .png, draws the base triangles in plan instead, north up.\n"
           "\n"
-          "  -o, --output FILE   the mesh, ending .obj; - is the standard output\n"
+          "  -o, --output FILE   the mesh, ending .obj, or the drawing, ending .svg or\n"
+          "                      .png; - is the standard output\n"
           "  --depth N           refine until no edge is longer than the map's width halved N\n"
           "                      times, 0 to 8\n"
           "  --reference         the reference surface: no edge longer than a lattice step\n"
@@ -53,8 +73,19 @@ static int help(void)
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
           "\n"
-          "Example:\n"
-          "  yamabiko mesh fuji.yb -o fuji.obj --depth 6\n",
+          "Of a drawing:\n"
+          "  --stage STAGE       contours: the coded lines and heights, ticks on the lower side;\n"
+          "                      links: the same in grey, and the points and edges that the\n"
+          "                      rules added, by rule; triangles: all of them, coloured by\n"
+          "                      height, flat ones pink (default)\n"
+          "  --svg               SVG, whatever the file's ending; for the standard output\n"
+          "  --width PIXELS      of the page, 100 to 8000, 600 or more with a legend (default\n"
+          "                      1000)\n"
+          "  --plain             the plan alone, without title and legend\n"
+          "\n"
+          "Examples:\n"
+          "  yamabiko mesh fuji.yb -o fuji.obj --depth 6\n"
+          "  yamabiko mesh fuji.yb -o fuji.svg --stage links\n",
           stdout);
     return CLI_OK;
 }
@@ -69,6 +100,16 @@ static uint16_t longest_q8(const request_t *request, const yb_map_t *map)
     return (uint16_t)(width >> request->depth);
 }
 
+static bool write_mesh(const request_t *request, const yb_map_t *map, yb_error_t *error)
+{
+    yb_mesh_t mesh = {0};
+    bool good = yb_mesh_from_map(&mesh, map, longest_q8(request, map)) ||
+                yb_error_set(error, "not enough memory for %s", request->output);
+    good = good && yb_obj_file_write(request->output, request->force, &mesh, error);
+    yb_mesh_free(&mesh);
+    return good;
+}
+
 static int run(const request_t *request)
 {
     yb_error_t error;
@@ -78,31 +119,82 @@ static int run(const request_t *request)
     if (file == NULL)
         return cli_fail("%s", error.text);
     file->map.detail = file->map.detail && !request->smooth;
-    yb_mesh_t mesh = {0};
-    bool good = yb_mesh_from_map(&mesh, &file->map, longest_q8(request, &file->map)) ||
-                yb_error_set(&error, "not enough memory for %s", request->output);
-    good = good && yb_obj_file_write(request->output, request->force, &mesh, &error);
-    yb_mesh_free(&mesh);
+    const bool good = request->draws
+                          ? yb_mesh_drawing_write(request->output, request->force, &file->map,
+                                                  &file->load, &request->drawing, &error)
+                          : write_mesh(request, &file->map, &error);
     yb_code_file_free(file);
     return good ? CLI_OK : cli_fail("%s", error.text);
 }
 
-static int check(const request_t *request)
+static bool take_stage(request_t *request, const char *name)
+{
+    for (int i = 0; i <= YB_STAGE_TRIANGLES; i++) {
+        if (strcmp(name, stages[i]) == 0) {
+            request->drawing.stage = (yb_stage_t)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static int check_drawing(request_t *request)
+{
+    if (request->reference || request->smooth || request->depth != BASE_TRIANGLES)
+        return cli_usage("a drawing shows the base triangles: leave --depth, --reference and "
+                         "--no-detail out");
+    const char *slash = strrchr(request->input, '/');
+    const bool standard = strcmp(request->input, "-") == 0;
+    request->drawing.name = standard        ? "standard input"
+                            : slash == NULL ? request->input
+                                            : slash + 1;
+    request->drawing.width = request->width == 0 ? DRAWING_WIDTH : (uint32_t)request->width;
+    if (!request->drawing.plain && request->drawing.width < YB_MESH_DRAWING_LEAST)
+        return cli_usage("--width: with a legend at least %d pixels; --plain leaves it out",
+                         YB_MESH_DRAWING_LEAST);
+    return CLI_OK;
+}
+
+static int check(request_t *request)
 {
     if (request->output == NULL)
-        return cli_usage("name the mesh: -o OUT.obj");
+        return cli_usage("name the mesh: -o OUT.obj, OUT.svg or OUT.png");
     const char *dot = strrchr(request->output, '.');
+    request->draws = request->svg || yb_mesh_drawing_named(request->output);
+    if (request->svg && dot != NULL && strcasecmp(dot, ".png") == 0)
+        return cli_usage("--svg: '%s' ends as a PNG file does", request->output);
+    if (request->draws)
+        return check_drawing(request);
+    if (request->drawing_options)
+        return cli_usage("--stage, --width and --plain are for drawings: end the file .svg or "
+                         ".png, or add --svg");
     if (strcmp(request->output, "-") != 0 && (dot == NULL || strcasecmp(dot, ".obj") != 0))
-        return cli_usage("a mesh is written as .obj: '%s' ends otherwise", request->output);
+        return cli_usage("a mesh is written as .obj, drawn as .svg or .png: '%s' ends otherwise",
+                         request->output);
     if (request->reference && request->depth != BASE_TRIANGLES)
         return cli_usage("give --depth or --reference, not both");
     return CLI_OK;
 }
 
+/* An option of the drawing. */
+static int take_drawing(request_t *request, int answer)
+{
+    request->drawing_options = true;
+    if (answer == OPTION_STAGE && !take_stage(request, optarg))
+        return cli_usage("--stage: '%s' is not contours, links or triangles", optarg);
+    if (answer == OPTION_WIDTH &&
+        !cli_integer(optarg, LEAST_WIDTH, YB_MESH_DRAWING_MOST, &request->width))
+        return cli_usage("--width: '%s' is not a whole number from %d to %d", optarg, LEAST_WIDTH,
+                         YB_MESH_DRAWING_MOST);
+    if (answer == OPTION_PLAIN)
+        request->drawing.plain = true;
+    return CLI_OK;
+}
+
 int cli_mesh(int argc, char **argv)
 {
-    request_t request = {.depth = BASE_TRIANGLES};
-    int answer = 0;
+    request_t request = {.depth = BASE_TRIANGLES, .drawing = {.stage = YB_STAGE_TRIANGLES}};
+    int answer = 0, status = CLI_OK;
     while ((answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         switch (answer) {
         case 'o':
@@ -119,6 +211,16 @@ int cli_mesh(int argc, char **argv)
         case OPTION_NO_DETAIL:
             request.smooth = true;
             break;
+        case OPTION_SVG:
+            request.svg = true;
+            break;
+        case OPTION_STAGE:
+        case OPTION_WIDTH:
+        case OPTION_PLAIN:
+            status = take_drawing(&request, answer);
+            if (status != CLI_OK)
+                return status;
+            break;
         case OPTION_FORCE:
             request.force = true;
             break;
@@ -131,6 +233,6 @@ int cli_mesh(int argc, char **argv)
     if (optind + 1 != argc)
         return cli_usage("name one code, MAP.yb");
     request.input = argv[optind];
-    const int status = check(&request);
+    status = check(&request);
     return status != CLI_OK ? status : run(&request);
 }

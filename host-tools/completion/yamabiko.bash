@@ -21,6 +21,7 @@ _yamabiko()
     --format) values='grey4 rgb565' ;;
     --panel) values=ssd0323 ;;
     --profile) values=paper ;;
+    --stage) values='contours links triangles' ;;
     --view)
         values='orbit-45 orbit-135 orbit-225 orbit-315 summit-1 summit-2 walk-1 walk-2'
         ;;

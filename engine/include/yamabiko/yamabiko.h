@@ -159,9 +159,10 @@ typedef struct {
 /* A point of a skeleton. Private to loading. */
 typedef struct {
     yb_index_t parent; /* the point it was reached from */
-    yb_index_t other;  /* the second one, where two branches meet; later, the branch's end */
-    bool grown, meets;
-    uint32_t way;
+    yb_index_t other;  /* the second such point, where two branches meet; else itself */
+    yb_index_t end;    /* the meeting point at its farthest end; itself: that is a dead end */
+    bool grown;
+    uint32_t way; /* from the branch's beginning; later, to its farthest end */
 } yb_branch_t;
 
 /* Working memory of decoding. contour[0 .. contour_count) and region_count stay valid after YB_OK

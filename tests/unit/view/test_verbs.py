@@ -7,6 +7,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree
 import zlib
 
 import paper_code
@@ -128,6 +129,21 @@ class Verbs(unittest.TestCase):
         self.good("mesh", self.map, "-o", self.room / "fine.obj", "--depth", 4)
         self.assertGreater((self.room / "fine.obj").read_text().count("\nf "), 4 * faces)
 
+    def test_drawing(self):
+        out = self.room / "hill.svg"
+        self.good("mesh", self.map, "-o", out)
+        self.assertIn("--force", self.bad(1, "mesh", self.map, "-o", out))
+        drawn = out.read_bytes()
+        self.assertEqual(self.good("mesh", self.map, "-o", "-", "--svg"), drawn)
+        self.assertEqual(self.good("mesh", self.map, "-o", "-", "--svg", "--stage", "triangles"),
+                         drawn)
+        self.assertNotEqual(self.good("mesh", self.map, "-o", "-", "--svg", "--stage", "links"),
+                            drawn)
+        root = xml.etree.ElementTree.fromstring(drawn)
+        self.assertEqual(root.get("viewBox").split()[:3], ["0", "0", "1000"])
+        self.good("mesh", self.map, "-o", self.room / "hill.PNG", "--width", 700)
+        self.assertEqual(png_pixels((self.room / "hill.PNG").read_bytes())[0], 700)
+
     def test_evaluate(self):
         self.good("dem", self.map, "-o", self.room / "hill.tif")
         said = json.loads(self.good("evaluate", self.map, self.room / "hill.tif", "--json",
@@ -165,6 +181,14 @@ class Verbs(unittest.TestCase):
                       ("contours", self.map, "-o", out, "--interval", -5),
                       ("mesh", self.map, "-o", out), ("mesh", self.map, "-o", "x.glb"),
                       ("mesh", self.map, "-o", "x.obj", "--depth", 2, "--reference"),
+                      ("mesh", self.map, "-o", "x.svg", "--stage", "hills"),
+                      ("mesh", self.map, "-o", "x.svg", "--depth", 2),
+                      ("mesh", self.map, "-o", "x.svg", "--no-detail"),
+                      ("mesh", self.map, "-o", "x.png", "--svg"),
+                      ("mesh", self.map, "-o", "x.svg", "--width", 0),
+                      ("mesh", self.map, "-o", "x.svg", "--width", 300),
+                      ("mesh", self.map, "-o", "x.obj", "--plain"),
+                      ("mesh", self.map, "-o", "-", "--stage", "links"),
                       ("evaluate", self.map), ("evaluate", self.map, self.map, "--km", 3),
                       ("evaluate", self.map, self.map, "--window", 1, 2, 3),
                       ("evaluate", self.map, self.map, "--size", "9x9")):

@@ -1,0 +1,70 @@
+/* The mesh while it is being built: what every stage of loading asks of it. */
+#include "mesh.h"
+
+int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
+{
+    return map->triangle[t][0] == v ? 0 : map->triangle[t][1] == v ? 1 : 2;
+}
+
+int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
+{
+    int32_t abx = (b->x_q8 >> 2) - (a->x_q8 >> 2);
+    int32_t aby = (b->y_q8 >> 2) - (a->y_q8 >> 2);
+    int32_t acx = (c->x_q8 >> 2) - (a->x_q8 >> 2);
+    int32_t acy = (c->y_q8 >> 2) - (a->y_q8 >> 2);
+    return abx * acy - aby * acx;
+}
+
+int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c)
+{
+    return area_of(&map->vertex[a], &map->vertex[b], &map->vertex[c]);
+}
+
+int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b)
+{
+    const yb_vertex_t *v = map->vertex;
+    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
+}
+
+yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v)
+{
+    return neighbour_of(load, t, prev3(corner_of(map, t, v)));
+}
+
+yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v)
+{
+    return neighbour_of(load, t, corner_of(map, t, v));
+}
+
+yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
+{
+    yb_triangle_t start = load->star[v];
+    for (yb_triangle_t t = start;;) {
+        yb_triangle_t before = turn_right(map, load, t, v);
+        if (before == NO_TRIANGLE || before == start)
+            return t;
+        t = before;
+    }
+}
+
+yb_triangle_t turn_on(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v,
+                      yb_triangle_t first)
+{
+    t = turn_left(map, load, t, v);
+    return t == first ? NO_TRIANGLE : t;
+}
+
+yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
+                     int *corner)
+{
+    yb_triangle_t u = neighbour_of(load, t, i);
+    *corner = prev3(corner_of(map, u, map->triangle[t][next3(i)]));
+    return u;
+}
+
+bool is_flat(const yb_map_t *map, yb_triangle_t t)
+{
+    const yb_index_t *v = map->triangle[t];
+    return map->vertex[v[0]].z_q8 == map->vertex[v[1]].z_q8 &&
+           map->vertex[v[0]].z_q8 == map->vertex[v[2]].z_q8;
+}

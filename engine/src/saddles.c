@@ -1,0 +1,262 @@
+/* Saddles: link points between neighbouring peaks (faithful paper, 5.1 and 7).
+ *
+ * Two lines of one height that hold a peak each, side by side in one region, have a pass between
+ * them. The paper joins the two peaks by a straight segment, and where the slopes from both sides
+ * meet on it there is a link point, half way in height to the region's other lines.
+ */
+#include "links.h"
+
+enum {
+    OUTSIDE = 3,       /* of a triangle */
+    MOST_REFUSALS = 64 /* of pairs of peaks in one region */
+};
+
+/* The height of the region's other lines, or frame corners, that is nearest to h; h if none. */
+static int32_t other_height(const place_t *place, int32_t h)
+{
+    const yb_load_t *load = place->load;
+    int32_t nearest = h;
+    for (int c = 0; c < load->contour_count + 4; c++) {
+        int32_t z = h;
+        if (c < load->contour_count) {
+            if (bounds(place, c))
+                z = first_of(place, c)->z_q8;
+        } else {
+            yb_index_t corner = load->corner[c - load->contour_count];
+            if (load->region[load->star[corner]] == place->region)
+                z = place->map->vertex[corner].z_q8;
+        }
+        if (z != h && (nearest == h || fix_abs(z - h) < fix_abs(nearest - h)))
+            nearest = z;
+    }
+    return nearest;
+}
+
+/* Two peaks behind two lines of one height, and how far they are apart. */
+typedef struct {
+    int a, b; /* spot heights */
+    int32_t apart;
+} pair_t;
+
+/* Where the segment between two peaks leaves the line of the first and enters that of the second,
+ * in 1/65536 of its length. False: something else is in between.
+ */
+static bool find_gap(const place_t *place, yb_index_t a, yb_index_t b, int line_a, int line_b,
+                     uint32_t *leaves, uint32_t *enters)
+{
+    const yb_load_t *load = place->load;
+    const yb_map_t *map = place->map;
+    bool inside = false; /* the region */
+    mesh_walk_t walk;
+    mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
+    for (; step == WALK_CROSSES; step = mesh_walk_on(map, load, &walk)) {
+        if (mark_of(load, walk.t, walk.edge) != YB_RULE_CONTOUR)
+            continue;
+        yb_index_t p = map->triangle[walk.t][walk.edge];
+        yb_index_t q = map->triangle[walk.t][next3(walk.edge)];
+        int64_t from = orientation(map, p, q, a);
+        int64_t to = orientation(map, p, q, b);
+        uint32_t at = (uint32_t)((from << 16) / (from - to));
+        if (!inside && load->region[neighbour_of(load, walk.t, walk.edge)] == place->region) {
+            inside = true;
+            *leaves = at;
+        } else if (inside) {
+            int line = load->scratch[load->region[neighbour_of(load, walk.t, walk.edge)]];
+            *enters = at;
+            if (line == line_b)
+                return true;
+            if (line != line_a)
+                return false;
+            inside = false;
+        }
+    }
+    return false;
+}
+
+/* Links m to the nearest point of a line that it sees. */
+static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
+{
+    yb_load_t *load = place->load;
+    const yb_contour_t *contour = &load->contour[line];
+    int nearest = -1;
+    int32_t least = INT32_MAX;
+    for (int k = 0; k < contour->count; k++) {
+        yb_index_t p = (yb_index_t)(contour->first + k);
+        int32_t length = edge_length(place->map, m, p);
+        if (length < least && mesh_sees(place->map, load, m, p)) {
+            nearest = p;
+            least = length;
+        }
+    }
+    return nearest < 0 ? YB_OK
+                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
+}
+
+static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
+{
+    const yb_contour_t *c = &place->load->contour[line];
+    for (int i = 0; i < 3; i++) {
+        int v = place->map->triangle[t][i];
+        if (v >= c->first && v < c->first + c->count)
+            return true;
+    }
+    return false;
+}
+
+/* Where p lies in triangle t: -1: inside, 0 to 2: on this edge, which is not marked, OUTSIDE. */
+static int side_in(const place_t *place, yb_triangle_t t, const yb_vertex_t *p)
+{
+    const yb_vertex_t *v = place->map->vertex;
+    int on = -1;
+    for (int i = 0; i < 3; i++) {
+        int32_t side =
+            area_of(&v[place->map->triangle[t][i]], &v[place->map->triangle[t][next3(i)]], p);
+        if (side < 0 || (side == 0 && (on >= 0 || mark_of(place->load, t, i) != YB_RULE_NONE)))
+            return OUTSIDE;
+        if (side == 0)
+            on = i;
+    }
+    return on;
+}
+
+/* The triangle between two lines that holds point p. */
+static bool find_between(const place_t *place, const yb_vertex_t *p, int line_a, int line_b,
+                         yb_triangle_t *at, int *edge)
+{
+    for (yb_triangle_t t = 0; t < place->map->triangle_count; t++) {
+        *at = t;
+        *edge = side_in(place, t, p);
+        if (*edge != OUTSIDE && has_corner_on(place, t, line_a) && has_corner_on(place, t, line_b))
+            return true;
+    }
+    return false;
+}
+
+/* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
+ * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
+ * from its peak to its line, it divides the gap as s_b : s_a. Only where the mesh joins the two
+ * lines, though: with a third line in between they are no neighbours.
+ */
+static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
+{
+    yb_map_t *map = place->map;
+    yb_load_t *load = place->load;
+    int line_a = line_before(place, pair->a);
+    int line_b = line_before(place, pair->b);
+    const yb_vertex_t *a = first_of(place, pair->a);
+    const yb_vertex_t *b = first_of(place, pair->b);
+    uint32_t leaves = 0;
+    uint32_t enters = 0;
+    *joined = false;
+    if (!find_gap(place, load->contour[pair->a].first, load->contour[pair->b].first, line_a, line_b,
+                  &leaves, &enters))
+        return YB_OK;
+    /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
+    int32_t h = first_of(place, line_a)->z_q8;
+    int64_t weight_a = (int64_t)fix_abs(a->z_q8 - h) * (65536 - enters);
+    int64_t weight_b = (int64_t)fix_abs(b->z_q8 - h) * leaves;
+    int64_t gap = enters - leaves;
+    int64_t at = leaves + gap * weight_b / (weight_a + weight_b + 1);
+    at = at < leaves + gap / 8 ? leaves + gap / 8 : at;
+    at = at > enters - gap / 8 ? enters - gap / 8 : at;
+    /* On the quarter-step lattice. */
+    int64_t x = a->x_q8 + (((b->x_q8 - a->x_q8) * at + 32768) >> 16);
+    int64_t y = a->y_q8 + (((b->y_q8 - a->y_q8) * at + 32768) >> 16);
+    yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
+    yb_triangle_t t = 0;
+    int edge = -1;
+    if (!find_between(place, &link, line_a, line_b, &t, &edge))
+        return YB_OK;
+    yb_index_t m = (yb_index_t)map->vertex_count;
+    if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, z) != YB_OK)
+        return YB_ERR_LIMIT;
+    *joined = true;
+    mesh_split(map, load, t, edge, m);
+    mesh_legalise(map, load, m);
+    yb_status_t status = link_to_line(place, m, line_a);
+    if (status == YB_OK)
+        status = link_to_line(place, m, line_b);
+    mesh_make_delaunay(map, load); /* so that the next one finds the one and only mesh */
+    return status;
+}
+
+static yb_index_t group_of(const yb_load_t *load, int line)
+{
+    while (load->group[line] != line)
+        line = load->group[line];
+    return (yb_index_t)line;
+}
+
+/* May these two peaks be joined: behind two lines of one height that are not joined yet, both on
+ * the far side of the region's other height?
+ */
+static bool may_join(const place_t *place, int a, int b, int32_t *between)
+{
+    const yb_load_t *load = place->load;
+    int line_a = line_before(place, a);
+    int line_b = line_before(place, b);
+    if (line_a == NOWHERE || line_b == NOWHERE || line_a == line_b)
+        return false;
+    int32_t h = first_of(place, line_a)->z_q8;
+    if (first_of(place, line_b)->z_q8 != h || group_of(load, line_a) == group_of(load, line_b))
+        return false;
+    int32_t other = other_height(place, h);
+    int32_t up_a = first_of(place, a)->z_q8 - h;
+    int32_t up_b = first_of(place, b)->z_q8 - h;
+    *between = (h + other) / 2;
+    return h > other ? up_a > 0 && up_b > 0 : h < other && up_a < 0 && up_b < 0;
+}
+
+static bool comes_after(const pair_t *pair, const pair_t *last)
+{
+    if (pair->apart != last->apart)
+        return pair->apart > last->apart;
+    return pair->a > last->a || (pair->a == last->a && pair->b > last->b);
+}
+
+/* The nearest pair that may be joined and comes after `last`, in the order of distance, then of
+ * the spot heights' numbers.
+ */
+static bool next_pair(const place_t *place, const pair_t *last, pair_t *next, int32_t *between)
+{
+    const yb_load_t *load = place->load;
+    bool found = false;
+    for (int a = 0; a < all_contours(load); a++) {
+        for (int b = a + 1; b < all_contours(load) && line_before(place, a) != NOWHERE; b++) {
+            pair_t pair = {a, b,
+                           edge_length(place->map, load->contour[a].first, load->contour[b].first)};
+            if (comes_after(&pair, last) && (!found || comes_after(next, &pair)) &&
+                may_join(place, a, b, between)) {
+                found = true;
+                *next = pair;
+            }
+        }
+    }
+    return found;
+}
+
+/* Nearest pairs first, until all are joined or too many could not be (7). What is left, the
+ * skeleton joins.
+ */
+yb_status_t saddles_add(const place_t *place)
+{
+    yb_load_t *load = place->load;
+    pair_t last = {.apart = -1};
+    pair_t pair = last;
+    int32_t z = 0;
+    int refusals = 0;
+    for (int c = 0; c < load->contour_count; c++)
+        load->group[c] = (yb_index_t)c;
+    while (refusals < MOST_REFUSALS && next_pair(place, &last, &pair, &z)) {
+        bool joined = false;
+        if (join(place, &pair, z, &joined) != YB_OK)
+            return YB_ERR_LIMIT;
+        if (joined)
+            load->group[group_of(load, line_before(place, pair.a))] =
+                group_of(load, line_before(place, pair.b));
+        else
+            refusals++;
+        last = pair;
+    }
+    return YB_OK;
+}
