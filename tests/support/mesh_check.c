@@ -31,7 +31,7 @@ static bool along_frame(const yb_map_t *map, const yb_vertex_t *a, const yb_vert
 static const char *find_edges(const yb_map_t *map, edges_t *edges)
 {
     memset(edges, 0xff, sizeof *edges);
-    for (int t = 0; t < map->triangle_count; t++) {
+    for (int t = 0; t < (int)map->triangle_count; t++) {
         for (int i = 0; i < 3; i++) {
             int a = map->triangle[t][i];
             int b = map->triangle[t][(i + 1) % 3];
@@ -56,7 +56,8 @@ static int32_t height_of(const plan_t *plan, int coded)
 
 const char *mesh_check_vertices(const yb_map_t *map, const plan_t *plan)
 {
-    if (map->vertex_count != plan_vertices(plan))
+    int coded = plan_vertices(plan);
+    if (map->vertex_count < coded)
         return "vertex count";
     if (map->east_q8 != plan->east * 256 || map->north_q8 != plan->north * 256)
         return "frame";
@@ -71,7 +72,7 @@ const char *mesh_check_vertices(const yb_map_t *map, const plan_t *plan)
     }
     for (int k = 0; k < 4; k++) {
         int found = 0;
-        for (int i = 0; i < map->vertex_count; i++) {
+        for (int i = 0; i < coded; i++) {
             const yb_vertex_t *v = &map->vertex[i];
             bool here = v->x_q8 == (k == 1 || k == 2 ? map->east_q8 : 0) &&
                         v->y_q8 == (k >= 2 ? map->north_q8 : 0);
@@ -82,6 +83,15 @@ const char *mesh_check_vertices(const yb_map_t *map, const plan_t *plan)
         }
         if (found != 1)
             return "a corner of the frame";
+    }
+    for (int i = coded; i < map->vertex_count; i++) {
+        const yb_vertex_t *v = &map->vertex[i];
+        if (v->x_q8 > map->east_q8 || v->y_q8 > map->north_q8)
+            return "an added point outside the frame";
+        for (int k = 0; k < i; k++) {
+            if (map->vertex[k].x_q8 == v->x_q8 && map->vertex[k].y_q8 == v->y_q8)
+                return "an added point at another's place";
+        }
     }
     return NULL;
 }
@@ -95,7 +105,7 @@ const char *mesh_check_tiling(const yb_map_t *map, const plan_t *plan)
     if (wrong != NULL)
         return wrong;
     int64_t area = 0;
-    for (int t = 0; t < map->triangle_count; t++) {
+    for (int t = 0; t < (int)map->triangle_count; t++) {
         const yb_index_t *v = map->triangle[t];
         int64_t twice = turn(&map->vertex[v[0]], &map->vertex[v[1]], &map->vertex[v[2]]);
         if (twice <= 0)
@@ -120,7 +130,7 @@ const char *mesh_check_tiling(const yb_map_t *map, const plan_t *plan)
         if (used < 2)
             return "an unused vertex";
     }
-    if (map->vertex_count - count + map->triangle_count != 1)
+    if (map->vertex_count - count + (int)map->triangle_count != 1)
         return "Euler's count";
     for (int i = 0; i < plan->contours; i++) {
         for (int k = 0; k < plan_edges(plan, i); k++) {
@@ -176,7 +186,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-const char *mesh_check_delaunay(const yb_map_t *map, const plan_t *plan)
+const char *mesh_check_delaunay(const yb_map_t *map, const yb_load_t *load, const plan_t *plan)
 {
     static edges_t edges;
     static uint8_t fixed[MOST][MOST];
@@ -184,6 +194,11 @@ const char *mesh_check_delaunay(const yb_map_t *map, const plan_t *plan)
     if (wrong != NULL)
         return wrong;
     find_fixed(plan, fixed);
+    for (int t = 0; t < 3 * (int)map->triangle_count && load != NULL; t++) {
+        const yb_index_t *v = map->triangle[t / 3];
+        if (yb_edge_rule(map, load, (yb_triangle_t)(t / 3), t % 3) != YB_RULE_NONE)
+            fixed[v[t % 3]][v[(t % 3 + 1) % 3]] = fixed[v[(t % 3 + 1) % 3]][v[t % 3]] = 1;
+    }
     for (int a = 0; a < map->vertex_count; a++) {
         for (int b = 0; b < a; b++) {
             if (edges.left[a][b] == NONE || edges.left[b][a] == NONE || fixed[a][b] != 0)
@@ -334,10 +349,16 @@ const char *mesh_check(const yb_map_t *map, const yb_load_t *load, const plan_t 
     if (wrong == NULL)
         wrong = mesh_check_tiling(map, plan);
     if (wrong == NULL)
-        wrong = mesh_check_delaunay(map, plan);
-    if (wrong == NULL)
         wrong = mesh_check_regions(map, load, plan);
     return wrong;
+}
+
+const char *mesh_check_bare(const yb_map_t *map, const yb_load_t *load, const plan_t *plan)
+{
+    const char *wrong = mesh_check(map, load, plan);
+    if (wrong == NULL && map->vertex_count != plan_vertices(plan))
+        wrong = "vertex count";
+    return wrong == NULL ? mesh_check_delaunay(map, NULL, plan) : wrong;
 }
 
 /* --- Hash ------------------------------------------------------------------------------------- */
@@ -351,8 +372,8 @@ static int by_number(const void *a, const void *b)
 
 uint64_t mesh_hash(const yb_map_t *map)
 {
-    uint32_t triangle[YB_MAX_TRIANGLES];
-    for (int t = 0; t < map->triangle_count; t++) {
+    uint32_t triangle[2 * MOST];
+    for (int t = 0; t < (int)map->triangle_count; t++) {
         const yb_index_t *v = map->triangle[t];
         int first = v[0] < v[1] && v[0] < v[2] ? 0 : v[1] < v[2] ? 1 : 2;
         triangle[t] =
@@ -367,7 +388,7 @@ uint64_t mesh_hash(const yb_map_t *map)
         hash = fnv_number(fnv_number(hash, v->gx_q11), v->gy_q11);
     }
     hash = fnv_number(hash, map->triangle_count);
-    for (int t = 0; t < map->triangle_count; t++)
+    for (int t = 0; t < (int)map->triangle_count; t++)
         hash = fnv_number(hash, triangle[t]);
     for (int c = 0; c < YB_LENGTH_CLASSES; c++)
         hash = fnv_number(hash, map->noise[c]);

@@ -271,6 +271,187 @@ void random_plan(plan_t *plan, rng_t *rng)
     random_corners(plan, rng);
 }
 
+/* --- Mountains -------------------------------------------------------------------------------- */
+
+static void spot(plan_t *plan, int x, int y, int height)
+{
+    const plan_point_t p = {x, y};
+    (void)plan_try(plan, &p, 1, height < 0 ? 0 : height);
+}
+
+/* How much higher the next line is than one before it: `step`, now and then nothing, or back. */
+static int next_step(rng_t *rng, int step)
+{
+    return rng_one_in(rng, 6) ? 0 : rng_one_in(rng, 8) ? -step : step;
+}
+
+static int above_zero(int height)
+{
+    return height < 0 ? 0 : height;
+}
+
+/* Lines inside each other, and perhaps a summit, or two, inside the last. */
+static void peak(plan_t *plan, rng_t *rng, int x, int y, int radius, int height, int step)
+{
+    int lines = rng_range(rng, 1, 3);
+    for (int i = 0; i < lines && radius > 1; i++) {
+        if (!shape_blob(plan, rng, x, y, radius, height))
+            break;
+        radius = radius * rng_range(rng, 3, 6) / 8;
+        if (i + 1 < lines)
+            height = above_zero(height + next_step(rng, step));
+    }
+    if (rng_one_in(rng, 2))
+        spot(plan, x, y, height + next_step(rng, step) / 2);
+    if (rng_one_in(rng, 8))
+        spot(plan, x + radius / 3, y + radius / 4, height + next_step(rng, step) / 2);
+}
+
+/* A round contour with one deep and narrow dent, or a thin spur. */
+static bool shape_canyon(plan_t *plan, rng_t *rng, int x, int y, int radius, int height)
+{
+    sketch_t sketch = {.count = 0};
+    int corners = rng_range(rng, 6, 16);
+    double phase = rng_unit(rng) * turn;
+    double half = turn / corners / rng_range(rng, 2, 5);
+    double head = rng_one_in(rng, 4) ? 1.3 + rng_unit(rng) : 0.8 * rng_unit(rng);
+    int bends = rng_range(rng, 0, 3);
+    double lean = rng_unit(rng) - 0.5;
+    for (int i = 1; i < corners; i++)
+        dot(&sketch, x + radius * cos(phase + i * turn / corners),
+            y + radius * sin(phase + i * turn / corners));
+    /* In along one side of the canyon to its head, and out again. */
+    for (int k = 0; k <= 2 * bends + 2; k++) {
+        int in = k <= bends ? k : 2 * bends + 2 - k;
+        double part = (double)in / (bends + 1);
+        double r = radius * (1 + (head - 1) * part);
+        double off = k == bends + 1 ? 0 : k <= bends ? -half : half;
+        double angle = phase + off * (1 - part * 0.7) + lean * part * (1 - part);
+        dot(&sketch, x + r * cos(angle), y + r * sin(angle));
+    }
+    return finish(plan, &sketch, height);
+}
+
+/* Two to seven peaks, most of them of one height, in what has been drawn round (x, y). */
+static void siblings(plan_t *plan, rng_t *rng, int x, int y, int radius, int height, int step)
+{
+    int count = rng_one_in(rng, 3) ? rng_range(rng, 4, 7) : rng_range(rng, 2, 3);
+    double phase = rng_unit(rng) * turn;
+    for (int i = 0; i < count; i++) {
+        double angle = phase + i * turn / count + rng_unit(rng) - 0.5;
+        double away = radius * (0.35 + 0.35 * rng_unit(rng));
+        int size = radius * rng_range(rng, 1, 4) / 10;
+        int high = height + (rng_one_in(rng, 5) ? next_step(rng, step) : 0);
+        if (size > 0)
+            peak(plan, rng, x + (int)(away * cos(angle)), y + (int)(away * sin(angle)), size,
+                 above_zero(high), step);
+    }
+}
+
+/* A line from one side of a corner of the frame to another, or to the corner itself. */
+static void round_corner(plan_t *plan, rng_t *rng, int height)
+{
+    int k = rng_range(rng, 0, 3);
+    int side = plan->east < plan->north ? plan->east : plan->north;
+    for (int lines = rng_range(rng, 1, 3); lines > 0; lines--) {
+        int a = rng_range(rng, 1, side - 1);
+        int b = rng_range(rng, 1, side - 1);
+        int x = k == 1 || k == 2 ? plan->east : 0;
+        int y = k >= 2 ? plan->north : 0;
+        sketch_t sketch = {.count = 0};
+        dot(&sketch, abs(x - a), y);
+        if (rng_one_in(rng, 2))
+            dot(&sketch, abs(x - a / 2 - 1), abs(y - b / 2 - 1));
+        dot(&sketch, rng_one_in(rng, 6) ? plan->east - x : x, abs(y - b));
+        (void)finish(plan, &sketch, height);
+        height += next_step(rng, 10);
+        height = above_zero(height);
+    }
+}
+
+static void mountain(plan_t *plan, rng_t *rng)
+{
+    int side = plan->east < plan->north ? plan->east : plan->north;
+    int x = rng_range(rng, side / 4, plan->east - side / 4);
+    int y = rng_range(rng, side / 4, plan->north - side / 4);
+    int radius = rng_range(rng, side / 12 + 2, side / 2 + 1);
+    int step = rng_one_in(rng, 4) ? -20 : 20;
+    int height = rng_range(rng, 1, 8) * 20;
+    int inside = height + next_step(rng, step);
+    bool drawn = false;
+    switch (rng_range(rng, 0, 9)) {
+    case 0:
+    case 1:
+        drawn = shape_blob(plan, rng, x, y, radius, height);
+        siblings(plan, rng, x, y, radius, inside, step);
+        break;
+    case 2:
+    case 3:
+        if (rng_one_in(rng, 2))
+            (void)shape_blob(plan, rng, x, y, radius * 5 / 4 + 2, height - step);
+        drawn = shape_canyon(plan, rng, x, y, radius, height);
+        if (rng_one_in(rng, 2))
+            peak(plan, rng, x, y, radius / 2, inside, step);
+        break;
+    case 4:
+        drawn = shape_bow(plan, rng, x, y, radius, height);
+        for (int i = 0; i < 6; i++) {
+            double angle = rng_unit(rng) * turn;
+            double away = radius * (0.6 + 0.3 * rng_unit(rng));
+            peak(plan, rng, x + (int)(away * cos(angle)), y + (int)(away * sin(angle)),
+                 radius / 10 + 1, inside, step);
+        }
+        break;
+    case 5:
+        drawn = rng_one_in(rng, 2) ? shape_star(plan, rng, x, y, radius, height)
+                                   : shape_spiral(plan, rng, x, y, radius, height);
+        siblings(plan, rng, x, y, radius / 2, inside, step);
+        break;
+    case 6:
+        drawn =
+            shape_comb(plan, x, y, rng_range(rng, 2, 12), rng_range(rng, 2, 10), radius, height);
+        break;
+    case 7:
+        height = rng_one_in(rng, 2) ? 0 : height;
+        for (int i = rng_range(rng, 1, 4); i > 0; i--) {
+            drawn = random_open_line(plan, rng, height) || drawn;
+            height = above_zero(height + next_step(rng, step));
+        }
+        break;
+    case 8:
+        round_corner(plan, rng, height);
+        break;
+    default:
+        peak(plan, rng, x, y, radius, height, step);
+        break;
+    }
+    if (drawn && rng_one_in(rng, 4))
+        spot(plan, x + rng_range(rng, -radius, radius), y + rng_range(rng, -radius, radius),
+             height);
+}
+
+void random_mountain(plan_t *plan, rng_t *rng)
+{
+    random_header(plan, rng);
+    if (rng_one_in(rng, 2)) /* many mountains want room */
+        plan->east = plan->north = 255;
+    if (rng_one_in(rng, 2))
+        plan->frame_height = 0;
+    if (rng_one_in(rng, 12)) { /* next to no relief: heights that differ by a unit or not at all */
+        plan->cell = 0x4fff;
+        plan->unit = rng_range(rng, 1, 40);
+    } else if (rng_one_in(rng, 20)) { /* up to the highest height there is */
+        plan->cell = 40;
+        plan->unit = 128;
+    }
+    for (int i = rng_range(rng, 1, 5); i > 0 && plan->points < 120; i--)
+        mountain(plan, rng);
+    if (rng_one_in(rng, 6))
+        spots(plan, rng, rng_range(rng, 1, 6), rng_range(rng, 0, 8) * 20);
+    if (rng_one_in(rng, 3))
+        random_corners(plan, rng);
+}
+
 void random_mess(plan_t *plan, rng_t *rng)
 {
     random_header(plan, rng);

@@ -10,6 +10,13 @@
  */
 void random_plan(plan_t *plan, rng_t *rng);
 
+/* A legal, codable plan of what the rules between contours speak of: peaks and pits by ones, twos
+ * and many in one parent, with and without summits; canyons, bows, combs, spirals; craters and
+ * other nests of one height; spot heights as high as a line; coasts at height 0; lines round the
+ * frame's corners.
+ */
+void random_mountain(plan_t *plan, rng_t *rng);
+
 /* A codable plan whose points and lines may do anything: cross, touch, repeat. */
 void random_mess(plan_t *plan, rng_t *rng);
 

@@ -5,8 +5,8 @@
 
 #include "camera.h"
 #include "check.h"
+#include "maps.h"
 #include "plain_frame.h"
-#include "random_plan.h"
 #include "refine.h"
 
 static yb_map_t map;
@@ -136,7 +136,7 @@ static void positions_are_the_papers(void **state)
     for (int round = 0; round < 3000; round++) {
         plan_t plan;
         if (round % 20 == 0) {
-            random_plan(&plan, &rng);
+            random_fitting_plan(&plan, &rng);
             load_plan(&plan);
         }
         yb_view_t view;
@@ -237,11 +237,12 @@ static void any_view_at_all(void **state)
     for (int round = 0; round < 20000; round++) {
         plan_t plan;
         if (round % 40 == 0) {
-            random_plan(&plan, &rng);
+            random_fitting_plan(&plan, &rng);
             if (rng_one_in(&rng, 4)) {
                 plan.gain = 255;
+                int unit = plan.unit;
                 plan.unit = 0xfff;
-                plan.unit = plan_valid(&plan) ? plan.unit : 64;
+                plan.unit = map_fits(&plan) ? plan.unit : unit;
             }
             load_plan(&plan);
         }

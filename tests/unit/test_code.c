@@ -6,6 +6,7 @@
 #include <yamabiko/yamabiko.h>
 
 #include "check.h"
+#include "maps.h"
 #include "mesh_check.h"
 #include "random_plan.h"
 
@@ -16,7 +17,7 @@ static yb_load_t load;
 static const uint8_t worked[] = {
     0x20, 0x02, 0x03, 0x0c, 0xff, 0xff, 0x07, 0x80, 0x02, 0x80, 0x03, 0xe8, 0x07, 0x08,
     0x00, 0x0a, 0x04, 0x03, 0x01, 0x40, 0x00, 0x14, 0x40, 0x40, 0x60, 0x00, 0x18, 0xa0,
-    0x00, 0x03, 0xc6, 0x06, 0x02, 0x82, 0xe4, 0x70, 0x06, 0x47, 0x06, 0xc0, 0x7c,
+    0x00, 0x03, 0xc6, 0x06, 0x02, 0x82, 0xe4, 0x70, 0x06, 0x47, 0x06, 0xc0, 0x1f,
 };
 
 static void worked_plan(plan_t *plan)
@@ -29,6 +30,7 @@ static void worked_plan(plan_t *plan)
     plan->seed = 7;
     plan->gain = 8;
     plan->frame_height = 10;
+    plan->vertices = 12;
     const plan_point_t square[] = {{64, 64}, {160, 64}, {160, 160}, {64, 160}};
     const plan_point_t triangle[] = {{96, 96}, {136, 104}, {108, 132}};
     const plan_point_t summit = {112, 108};
@@ -75,7 +77,7 @@ static void any_pieces_give_the_same_map(void **state)
     for (int round = 0; round < 100; round++) {
         plan_t plan;
         uint8_t bytes[PLAN_MAX_BYTES];
-        random_plan(&plan, &rng);
+        random_fitting_plan(&plan, &rng);
         size_t count = plan_write(&plan, bytes);
         static yb_map_t whole;
         assert_int_equal(yb_map_load(&whole, &load, bytes, count), YB_OK);
@@ -88,7 +90,7 @@ static void any_pieces_give_the_same_map(void **state)
             if (cut < count)
                 status = yb_map_feed(&map, &load, bytes + cut, count - cut);
             assert_int_equal(status, YB_OK);
-            assert_memory_equal(&map, &whole, sizeof map);
+            assert_true(map_same(&map, &whole));
         }
         yb_map_begin(&map, &load);
         for (size_t i = 0; i < count; i++) {
@@ -97,7 +99,7 @@ static void any_pieces_give_the_same_map(void **state)
             assert_int_equal(yb_map_feed(&map, &load, NULL, 0), i + 1 < count ? YB_MORE : YB_OK);
         }
         assert_int_equal(yb_map_end(&map, &load), YB_OK);
-        assert_memory_equal(&map, &whole, sizeof map);
+        assert_true(map_same(&map, &whole));
     }
 }
 
@@ -118,7 +120,7 @@ static void errors_stay(void **state)
     assert_int_equal(yb_map_feed(&map, &load, worked, 10), YB_MORE);
     assert_int_equal(yb_map_end(&map, &load), YB_ERR_TRUNCATED);
     assert_int_equal(yb_map_feed(&map, &load, worked + 10, 31), YB_ERR_TRUNCATED);
-    const uint8_t version = 0x20;
+    const uint8_t version = 0x10;
     yb_map_begin(&map, &load);
     assert_int_equal(yb_map_feed(&map, &load, &version, 1), YB_ERR_VERSION);
     assert_int_equal(yb_map_feed(&map, &load, worked, sizeof worked), YB_ERR_VERSION);
@@ -208,7 +210,7 @@ static void header_rules(void **state)
     static const struct {
         int at;
         uint8_t value;
-    } bad[] = {{1, 0x0a}, {3, 3}, {3, 0}, {3, 11}, {3, 13}, {4, 0}, {5, 0}};
+    } bad[] = {{1, 0x0a}, {3, 3}, {3, 0}, {3, 11}, {4, 0}, {5, 0}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         uint8_t bytes[sizeof worked];
         memcpy(bytes, worked, sizeof worked);
@@ -292,9 +294,9 @@ static void the_flat_map_is_a_map(void **state)
     assert_null(mesh_check(&map, &load, &plan));
     assert_int_equal(map.triangle_count, 2);
     assert_int_equal(yb_map_height(&map, 77, 9999), 3 * 256);
-    plan.vertices = 5;
+    plan.vertices = 4;
     count = plan_write(&plan, bytes);
-    assert_int_equal(yb_map_load(&map, &load, bytes, count), YB_ERR_CORRUPT);
+    assert_int_equal(yb_map_load(&map, &load, bytes, count), YB_OK);
 }
 
 static void steps_reach_as_far_as_their_shift(void **state)

@@ -4,8 +4,8 @@
 
 #include "camera.h"
 #include "check.h"
+#include "maps.h"
 #include "plain_frame.h"
-#include "random_plan.h"
 
 #include "refine.c"
 
@@ -25,7 +25,7 @@ static void begin_random_frame(rng_t *rng, int round)
         {128, 64, YB_GREY4}, {320, 240, YB_RGB565}, {64, 200, YB_RGB565}, {1024, 700, YB_GREY4}};
     if (round % 10 == 0) {
         plan_t plan;
-        random_plan(&plan, rng);
+        random_fitting_plan(&plan, rng);
         if (round % 40 == 0)
             plan.gain = 255;
         load_plan(&plan);

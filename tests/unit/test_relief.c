@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "random_plan.h"
+#include "maps.h"
 
 #include "relief.c"
 #include "split.h"
@@ -46,7 +46,7 @@ static void a_midpoint_is_the_same_from_both_ends(void **state)
     for (int i = 0; i < 500000; i++) {
         if (i % 1000 == 0) {
             plan_t plan;
-            random_plan(&plan, &rng);
+            random_fitting_plan(&plan, &rng);
             load_plan(&plan);
             map.smooth = !rng_one_in(&rng, 4);
             if (rng_one_in(&rng, 3)) {
@@ -262,7 +262,7 @@ static void noise_scales_follow_the_law(void **state)
     int checked = 0;
     for (int round = 0; round < 400; round++) {
         plan_t plan;
-        random_plan(&plan, &rng);
+        random_fitting_plan(&plan, &rng);
         load_plan(&plan);
         double h = (map.hurst_q8m1 + 1) / 256.0;
         double sum = 0;
@@ -301,7 +301,7 @@ static void slopes_are_those_of_spec(void **state)
     rng_t rng = {24};
     for (int round = 0; round < 500; round++) {
         plan_t plan;
-        random_plan(&plan, &rng);
+        random_fitting_plan(&plan, &rng);
         load_plan(&plan);
         for (int v = 0; v < map.vertex_count; v++) {
             double n[3] = {0, 0, 0};
@@ -411,14 +411,14 @@ static void refinement_never_goes_beyond_its_reach(void **state)
     search_t search = {.rng = {25}};
     for (int round = 0; round < 2500; round++) {
         plan_t plan;
-        random_plan(&plan, &search.rng);
+        random_fitting_plan(&plan, &search.rng);
         if (round % 3 == 0) {
             plan.gain = 255;
             plan.dimension = rng_range(&search.rng, 0, 255);
             plan.unit = plan.cell * rng_range(&search.rng, 1, 2) & 0xfff;
             plan.unit = plan.unit == 0 || !plan_valid(&plan) ? 64 : plan.unit;
         }
-        if (!plan_valid(&plan))
+        if (!map_fits(&plan))
             continue;
         load_plan(&plan);
         for (int tries = 0; tries < 4; tries++) {

@@ -6,6 +6,7 @@
 #include <yamabiko/yamabiko.h>
 
 #include "check.h"
+#include "maps.h"
 #include "random_plan.h"
 #include "relief.h"
 
@@ -119,7 +120,7 @@ static void refined_maps_are_whole(void **state)
     size_t most = 0;
     for (int round = 0; round < 150; round++) {
         plan_t plan;
-        random_plan(&plan, &rng);
+        random_fitting_plan(&plan, &rng);
         load_plan(&plan);
         uint16_t longest = lengths[round % 5];
         if (round % 50 == 0)
@@ -169,7 +170,7 @@ static void heights_lie_on_the_leaves(void **state)
     leaves_t leaves = {0};
     for (int round = 0; round < 25; round++) {
         plan_t plan;
-        random_plan(&plan, &rng);
+        random_fitting_plan(&plan, &rng);
         load_plan(&plan);
         map.detail = round % 4 != 3;
         refine_all(&leaves, YB_REFERENCE_Q8);
@@ -243,7 +244,7 @@ static void the_smooth_part_is_a_quadratic(void **state)
     int checked = 0;
     for (int round = 0; round < 60; round++) {
         plan_t plan;
-        random_plan(&plan, &rng);
+        random_fitting_plan(&plan, &rng);
         plan.straight = false;
         load_plan(&plan);
         map.detail = false;

@@ -6,16 +6,17 @@
 #include <yamabiko/yamabiko.h>
 
 #include "check.h"
+#include "maps.h"
 #include "mesh_check.h"
 #include "random_plan.h"
 
 static yb_map_t map;
 static yb_load_t load;
 
-static yb_status_t load_plan(const plan_t *plan)
+/* The triangulation alone: what the rules make of it is the matter of other tests. */
+static yb_status_t triangulate(const plan_t *plan)
 {
-    uint8_t bytes[PLAN_MAX_BYTES];
-    return yb_map_load(&map, &load, bytes, plan_write(plan, bytes));
+    return map_triangulate(&map, &load, plan);
 }
 
 static void random_maps_are_triangulated(void **state)
@@ -27,8 +28,8 @@ static void random_maps_are_triangulated(void **state)
         rng_t rng = {seed};
         plan_t plan;
         random_plan(&plan, &rng);
-        CHECK(load_plan(&plan) == YB_OK, "map %d is refused", (int)seed);
-        const char *wrong = mesh_check(&map, &load, &plan);
+        CHECK(triangulate(&plan) == YB_OK, "map %d is refused", (int)seed);
+        const char *wrong = mesh_check_bare(&map, &load, &plan);
         CHECK(wrong == NULL, "map %d: %s", (int)seed, wrong);
         largest = map.vertex_count > largest ? map.vertex_count : largest;
         lines += load.region_count - 1;
@@ -46,13 +47,13 @@ static void messes_are_right_or_refused(void **state)
         plan_t plan;
         random_mess(&plan, &rng);
         bool legal = plan_valid(&plan) && plan_codable(&plan, 255);
-        yb_status_t status = load_plan(&plan);
+        yb_status_t status = triangulate(&plan);
         CHECK(status == (legal ? YB_OK : YB_ERR_CORRUPT), "mess %d: %s", (int)seed,
               yb_status_text(status));
         if (!legal)
             continue;
         good++;
-        const char *wrong = mesh_check(&map, &load, &plan);
+        const char *wrong = mesh_check_bare(&map, &load, &plan);
         CHECK(wrong == NULL, "mess %d: %s", (int)seed, wrong);
     }
     print_message("%d of 40000 messes are legal\n", good);
@@ -72,8 +73,8 @@ static void four_on_a_circle(void **state)
         static const plan_point_t square[4] = {{100, 100}, {140, 100}, {140, 140}, {100, 140}};
         for (int i = 0; i < 4; i++)
             assert_true(plan_try(&plan, &square[order[k][i]], 1, 10));
-        assert_int_equal(load_plan(&plan), YB_OK);
-        assert_null(mesh_check(&map, &load, &plan));
+        assert_int_equal(triangulate(&plan), YB_OK);
+        assert_null(mesh_check_bare(&map, &load, &plan));
         /* Vertex 0 has the diagonal: to the place opposite. */
         int opposite = 0;
         for (int i = 1; i < 4; i++) {
@@ -106,7 +107,7 @@ static void order_of_contours_does_not_matter(void **state)
         plan_init(&plan, 255, 254);
         for (int i = 0; i < 6; i++)
             assert_true(plan_try(&plan, &spot[(i + k) % 6], 1, 10));
-        assert_int_equal(load_plan(&plan), YB_OK);
+        assert_int_equal(triangulate(&plan), YB_OK);
         int64_t sum = 0;
         for (int t = 0; t < map.triangle_count; t++) {
             int64_t product = 1;

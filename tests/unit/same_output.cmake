@@ -1,0 +1,12 @@
+# Runs two programs with the same arguments: both must succeed and print the same.
+foreach(program IN ITEMS ${ONE} ${OTHER})
+    execute_process(COMMAND ${program} ${ARGUMENTS} OUTPUT_VARIABLE output RESULT_VARIABLE result)
+    message("${output}")
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${program}: ${result}")
+    endif()
+    if(DEFINED before AND NOT output STREQUAL before)
+        message(FATAL_ERROR "${program} prints something else")
+    endif()
+    set(before "${output}")
+endforeach()
