@@ -365,9 +365,9 @@ static const char *check_height(const scene_t *s, int v, int32_t h)
         return "a point of a skeleton on the wrong side of its sides' height";
     if (branch->parent < s->load->first_skeleton && apart(z, h) < apart(from, h) / 8)
         return "a branch that begins at the height of its sides";
-    if (branch->meets)
+    if (branch->other != v)
         return NULL;
-    int32_t end = branch->other == v ? h : z_of(s, branch->other);
+    int32_t end = branch->end == v ? h : z_of(s, branch->end);
     return between(z, from, end) ? NULL : "a branch that goes up and down";
 }
 

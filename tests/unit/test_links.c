@@ -219,7 +219,7 @@ static void bows_are_left_to_the_skeleton(void **state)
     int found = 0;
     for (int v = load.first_skeleton; v < map.vertex_count; v++) {
         const yb_vertex_t *p = &map.vertex[v];
-        if (!load.branch[v].meets || p->x_q8 < 88 * 256 || p->x_q8 > 168 * 256)
+        if (load.branch[v].other == v || p->x_q8 < 88 * 256 || p->x_q8 > 168 * 256)
             continue;
         found++;
         assert_in_range(p->y_q8, 40 * 256, 88 * 256);
