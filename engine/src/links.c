@@ -11,12 +11,6 @@ enum {
     MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
-bool bounds(const place_t *place, int contour)
-{
-    const yb_contour_t *c = &place->load->contour[contour];
-    return is_line(c) && (c->left == place->region || c->right == place->region);
-}
-
 /* Finds for every other region which line of this one leads to it. */
 static void look_beyond(const place_t *place)
 {

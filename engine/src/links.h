@@ -33,7 +33,11 @@ static inline const yb_vertex_t *first_of(const place_t *place, int contour)
 }
 
 /* Does this contour, as a line, bound the region? */
-bool bounds(const place_t *place, int contour);
+static inline bool bounds(const place_t *place, int contour)
+{
+    const yb_contour_t *c = &place->load->contour[contour];
+    return is_line(c) && (c->left == place->region || c->right == place->region);
+}
 
 /* The line of the region behind which spot height s lies, or NOWHERE. */
 int line_before(const place_t *place, int s);

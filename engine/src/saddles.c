@@ -8,7 +8,7 @@
 
 enum {
     OUTSIDE = 3,       /* of a triangle */
-    MOST_REFUSALS = 64 /* of pairs of peaks in one region */
+    MOST_REFUSALS = 16 /* of pairs of peaks in one region */
 };
 
 /* The height of the region's other lines, or frame corners, that is nearest to h; h if none. */
@@ -32,7 +32,14 @@ static int32_t other_height(const place_t *place, int32_t h)
     return nearest;
 }
 
-/* Two peaks behind two lines of one height, and how far they are apart. */
+/* The lines of one height round a region, and the other height that the passes between go down to.
+ */
+typedef struct {
+    const place_t *place;
+    int32_t h, other;
+} level_t;
+
+/* Two peaks behind two of these lines, and how far they are apart. */
 typedef struct {
     int a, b; /* spot heights */
     int32_t apart;
@@ -137,8 +144,9 @@ static bool find_between(const place_t *place, const yb_vertex_t *p, int line_a,
  * from its peak to its line, it divides the gap as s_b : s_a. Only where the mesh joins the two
  * lines, though: with a third line in between they are no neighbours.
  */
-static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, bool *joined)
+static yb_status_t join(const level_t *level, const pair_t *pair, bool *joined)
 {
+    const place_t *place = level->place;
     yb_map_t *map = place->map;
     yb_load_t *load = place->load;
     int line_a = line_before(place, pair->a);
@@ -152,9 +160,8 @@ static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, boo
                   &leaves, &enters))
         return YB_OK;
     /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
-    int32_t h = first_of(place, line_a)->z_q8;
-    int64_t weight_a = (int64_t)fix_abs(a->z_q8 - h) * (65536 - enters);
-    int64_t weight_b = (int64_t)fix_abs(b->z_q8 - h) * leaves;
+    int64_t weight_a = (int64_t)fix_abs(a->z_q8 - level->h) * (65536 - enters);
+    int64_t weight_b = (int64_t)fix_abs(b->z_q8 - level->h) * leaves;
     int64_t gap = enters - leaves;
     int64_t at = leaves + gap * weight_b / (weight_a + weight_b + 1);
     at = at < leaves + gap / 8 ? leaves + gap / 8 : at;
@@ -168,7 +175,7 @@ static yb_status_t join(const place_t *place, const pair_t *pair, int32_t z, boo
     if (!find_between(place, &link, line_a, line_b, &t, &edge))
         return YB_OK;
     yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, z) != YB_OK)
+    if (mesh_add_vertex(map, load, link.x_q8, link.y_q8, (level->h + level->other) / 2) != YB_OK)
         return YB_ERR_LIMIT;
     *joined = true;
     mesh_split(map, load, t, edge, m);
@@ -187,24 +194,16 @@ static yb_index_t group_of(const yb_load_t *load, int line)
     return (yb_index_t)line;
 }
 
-/* May these two peaks be joined: behind two lines of one height that are not joined yet, both on
- * the far side of the region's other height?
+/* The line of this level that spot height s stands behind, if it is a peak: if it lies on the far
+ * side of the line's height. Else NOWHERE.
  */
-static bool may_join(const place_t *place, int a, int b, int32_t *between)
+static int peak_behind(const level_t *level, int s)
 {
-    const yb_load_t *load = place->load;
-    int line_a = line_before(place, a);
-    int line_b = line_before(place, b);
-    if (line_a == NOWHERE || line_b == NOWHERE || line_a == line_b)
-        return false;
-    int32_t h = first_of(place, line_a)->z_q8;
-    if (first_of(place, line_b)->z_q8 != h || group_of(load, line_a) == group_of(load, line_b))
-        return false;
-    int32_t other = other_height(place, h);
-    int32_t up_a = first_of(place, a)->z_q8 - h;
-    int32_t up_b = first_of(place, b)->z_q8 - h;
-    *between = (h + other) / 2;
-    return h > other ? up_a > 0 && up_b > 0 : h < other && up_a < 0 && up_b < 0;
+    int line = line_before(level->place, s);
+    if (line == NOWHERE || first_of(level->place, line)->z_q8 != level->h)
+        return NOWHERE;
+    int32_t up = first_of(level->place, s)->z_q8 - level->h;
+    return up != 0 && (up > 0) == (level->h > level->other) ? line : NOWHERE;
 }
 
 static bool comes_after(const pair_t *pair, const pair_t *last)
@@ -214,19 +213,23 @@ static bool comes_after(const pair_t *pair, const pair_t *last)
     return pair->a > last->a || (pair->a == last->a && pair->b > last->b);
 }
 
-/* The nearest pair that may be joined and comes after `last`, in the order of distance, then of
- * the spot heights' numbers.
+/* The nearest pair of peaks whose lines are not joined yet and that comes after `last`, in the
+ * order of distance, then of the spot heights' numbers.
  */
-static bool next_pair(const place_t *place, const pair_t *last, pair_t *next, int32_t *between)
+static bool next_pair(const level_t *level, const pair_t *last, pair_t *next)
 {
-    const yb_load_t *load = place->load;
+    const yb_load_t *load = level->place->load;
     bool found = false;
     for (int a = 0; a < all_contours(load); a++) {
-        for (int b = a + 1; b < all_contours(load) && line_before(place, a) != NOWHERE; b++) {
-            pair_t pair = {a, b,
-                           edge_length(place->map, load->contour[a].first, load->contour[b].first)};
-            if (comes_after(&pair, last) && (!found || comes_after(next, &pair)) &&
-                may_join(place, a, b, between)) {
+        int line_a = peak_behind(level, a);
+        for (int b = a + 1; b < all_contours(load) && line_a != NOWHERE; b++) {
+            int line_b = peak_behind(level, b);
+            if (line_b == NOWHERE || group_of(load, line_a) == group_of(load, line_b))
+                continue;
+            pair_t pair = {
+                a, b,
+                edge_length(level->place->map, load->contour[a].first, load->contour[b].first)};
+            if (comes_after(&pair, last) && (!found || comes_after(next, &pair))) {
                 found = true;
                 *next = pair;
             }
@@ -238,25 +241,41 @@ static bool next_pair(const place_t *place, const pair_t *last, pair_t *next, in
 /* Nearest pairs first, until all are joined or too many could not be (7). What is left, the
  * skeleton joins.
  */
-yb_status_t saddles_add(const place_t *place)
+static yb_status_t join_level(const level_t *level)
 {
-    yb_load_t *load = place->load;
+    yb_load_t *load = level->place->load;
     pair_t last = {.apart = -1};
     pair_t pair = last;
-    int32_t z = 0;
     int refusals = 0;
-    for (int c = 0; c < load->contour_count; c++)
-        load->group[c] = (yb_index_t)c;
-    while (refusals < MOST_REFUSALS && next_pair(place, &last, &pair, &z)) {
+    while (refusals < MOST_REFUSALS && next_pair(level, &last, &pair)) {
         bool joined = false;
-        if (join(place, &pair, z, &joined) != YB_OK)
+        if (join(level, &pair, &joined) != YB_OK)
             return YB_ERR_LIMIT;
         if (joined)
-            load->group[group_of(load, line_before(place, pair.a))] =
-                group_of(load, line_before(place, pair.b));
+            load->group[group_of(load, peak_behind(level, pair.a))] =
+                group_of(load, peak_behind(level, pair.b));
         else
             refusals++;
         last = pair;
+    }
+    return YB_OK;
+}
+
+yb_status_t saddles_add(const place_t *place)
+{
+    yb_load_t *load = place->load;
+    for (int c = 0; c < load->contour_count; c++)
+        load->group[c] = (yb_index_t)c;
+    for (int c = 0; c < load->contour_count; c++) {
+        if (!bounds(place, c))
+            continue;
+        level_t level = {place, first_of(place, c)->z_q8, 0};
+        level.other = other_height(place, level.h);
+        int first = 0;
+        while (!bounds(place, first) || first_of(place, first)->z_q8 != level.h)
+            first++;
+        if (first == c && level.other != level.h && join_level(&level) != YB_OK)
+            return YB_ERR_LIMIT;
     }
     return YB_OK;
 }

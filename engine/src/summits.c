@@ -23,29 +23,41 @@ yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint1
 /* --- How high ------------------------------------------------------------------------------------
  */
 
-static bool share_line(const yb_load_t *load, yb_triangle_t r, yb_triangle_t s)
+/* What load->scratch says of a region. */
+enum {
+    FLAT = 1,  /* of one height */
+    BESIDE = 2 /* shares a line with the region in question */
+};
+
+/* Notes which regions lie beyond a region's lines; is one of them not flat? */
+static bool look_beside(yb_load_t *load, yb_index_t region)
 {
+    bool sloping = false;
+    for (int r = 0; r < load->region_count; r++)
+        load->scratch[r] &= FLAT;
     for (int c = 0; c < load->contour_count; c++) {
         const yb_contour_t *line = &load->contour[c];
-        if ((line->left == r && line->right == s) || (line->left == s && line->right == r))
-            return true;
+        if (line->left == line->right || (line->left != region && line->right != region))
+            continue;
+        yb_index_t other = line->left == region ? line->right : line->left;
+        sloping = sloping || (load->scratch[other] & FLAT) == 0;
+        load->scratch[other] |= BESIDE;
     }
-    return false;
+    return sloping;
 }
 
-/* The smallest difference of height h from the ground in the regions beyond a region's lines, where
- * all ground next to the lines is flat as well; 0: there is no other height.
+/* The smallest difference of height h from the ground in the regions beside, where all ground next
+ * to the lines is flat as well. One of those regions has another height.
  */
-static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
-                                int32_t h)
+static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, int32_t h)
 {
     int32_t rise = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 3 && (load->scratch[load->region[t]] & BESIDE) != 0; i++) {
             int32_t up = h - map->vertex[map->triangle[t][i]].z_q8;
-            bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || up == -rise;
-            if (up != 0 && nearer && share_line(load, load->region[t], region))
-                rise = up > 0 || up != -rise ? up : rise;
+            bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
+            if (up != 0 && nearer)
+                rise = up;
         }
     }
     return rise;
@@ -101,7 +113,7 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triang
     surroundings_t round;
     look_round(map, load, region, &round);
     if (round.sloping == 0) {
-        int32_t interval = rise_farther_out(map, load, region, h);
+        int32_t interval = rise_farther_out(map, load, h);
         return interval / 2 != 0 ? interval / 2 : interval;
     }
     int32_t interval = (int32_t)(round.change / round.sloping);
@@ -216,9 +228,6 @@ static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot
 
 yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
 {
-    enum {
-        FLAT = 1
-    };
     for (int r = 0; r < load->region_count; r++)
         load->scratch[r] = FLAT;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
@@ -232,12 +241,11 @@ yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
         for (int c = 0; c < 2 * load->contour_count; c++) {
             const yb_contour_t *contour = &load->contour[c >> 1];
             yb_index_t region = (c & 1) == 0 ? contour->left : contour->right;
-            int32_t h = map->vertex[contour->first].z_q8;
-            int32_t rise = load->scratch[region] == FLAT ? rise_inside(map, load, region, h) : 0;
-            if (rise == 0)
+            if ((load->scratch[region] & FLAT) == 0 || !look_beside(load, region))
                 continue;
+            int32_t h = map->vertex[contour->first].z_q8;
             spot_t spot = widest_place(map, load, region);
-            if (add_summit(map, load, &spot, h + rise) != YB_OK)
+            if (add_summit(map, load, &spot, h + rise_inside(map, load, region, h)) != YB_OK)
                 return YB_ERR_LIMIT;
             load->scratch[region] = 0;
             changed = true;
