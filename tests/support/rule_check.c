@@ -172,9 +172,9 @@ static const char *check_summit(const scene_t *s, int v)
     int off = apart(z_of(s, v), h);
     if (most == 0)
         return "a summit where nothing is of another height";
-    if (off == 0 || (8 * off < least && abs(z_of(s, v)) < YB_MAX_HEIGHT_Q8))
+    if (off == 0 || (off < least / 8 && abs(z_of(s, v)) < YB_MAX_HEIGHT_Q8))
         return "a summit less than an eighth of an interval off its line";
-    if (off >= most && most > 1)
+    if (off >= most && most >= 8)
         return "a summit an interval and more off its line";
     return NULL;
 }
@@ -295,6 +295,25 @@ static bool sees(const scene_t *s, int a, int b)
     return true;
 }
 
+/* Lengths as the rules have them (SPEC 3.1). */
+static int length_of(const scene_t *s, int a, int b)
+{
+    int dx = abs(s->map->vertex[a].x_q8 - s->map->vertex[b].x_q8);
+    int dy = abs(s->map->vertex[a].y_q8 - s->map->vertex[b].y_q8);
+    return dx > dy ? dx + 3 * dy / 8 : dy + 3 * dx / 8;
+}
+
+/* May a point of the same height stand across a ridge from point p, nearer than the summit? */
+static bool is_by_ridge(const scene_t *s, int r, int p, int summit)
+{
+    for (int q = 0; q < s->load->first_saddle; q++) {
+        if (q != p && s->touches[r][q] && z_of(s, p) == z_of(s, q) && !s->line[p][q] &&
+            length_of(s, p, q) < length_of(s, p, summit))
+            return true;
+    }
+    return false;
+}
+
 /* Where one line bounds a region that has one summit. */
 static const char *check_fan(const scene_t *s, int r)
 {
@@ -325,8 +344,11 @@ static const char *check_fan(const scene_t *s, int r)
             edge = s->map->triangle[t][i] == summit ? i : edge;
         bool linked =
             t != NONE && yb_edge_rule(s->map, s->load, (yb_triangle_t)t, edge) == YB_RULE_SUMMIT;
-        if (linked != sees(s, summit, p))
-            return linked ? "a fan through something" : "a point that is not linked to its summit";
+        bool seen = sees(s, summit, p);
+        if (linked && !seen)
+            return "a fan through something";
+        if (!linked && seen && !is_by_ridge(s, r, p, summit))
+            return "a point that is not linked to its summit";
     }
     return NULL;
 }
@@ -365,9 +387,9 @@ static const char *check_height(const scene_t *s, int v, int32_t h)
         return "a point of a skeleton on the wrong side of its sides' height";
     if (branch->parent < s->load->first_skeleton && apart(z, h) < apart(from, h) / 8)
         return "a branch that begins at the height of its sides";
-    if (branch->meets)
+    if (branch->other != v)
         return NULL;
-    int32_t end = branch->other == v ? h : z_of(s, branch->other);
+    int32_t end = branch->end == v ? h : z_of(s, branch->end);
     return between(z, from, end) ? NULL : "a branch that goes up and down";
 }
 
