@@ -100,7 +100,7 @@ static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
         int at = corner_of(map, t, p);
         yb_index_t q = map->triangle[t][next3(at)];
-        if (load->region[t] == place->region && mark_of(load, t, at) == YB_RULE_NONE &&
+        if (load->region[t] == place->region && load->neighbour[t][at] < NO_TRIANGLE &&
             map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
             return true;
     }
@@ -236,9 +236,6 @@ static bool is_outer(const place_t *place, int line)
     const yb_contour_t *c = &place->load->contour[line];
     return c->open || (c->left == place->region) == turns_left(place->map, c);
 }
-
-/* -----------------------------------------------------------------------------------------------
- */
 
 static yb_status_t apply_rules(const place_t *place)
 {

@@ -106,13 +106,14 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triang
     }
     int32_t interval = (int32_t)(round.change / round.sloping);
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
-     * than enough; the quotient of area and length is below 2^16. */
+     * than enough; area / length is below 2^33, where a short line bounds much of the frame. */
     int64_t slope_q11 = round.change * 128 / round.outside;
     slope_q11 = slope_q11 > 1 << 20 ? 1 << 20 : slope_q11;
-    int32_t rise = (int32_t)((slope_q11 * (round.area * 8 / round.length)) >> 11);
-    rise = fix_clamp(rise, interval >> 3, interval - (interval >> 3));
-    rise = fix_max(rise, 1);
-    return round.rise < 0 ? -rise : rise;
+    int64_t rise = (slope_q11 * (round.area * 8 / round.length)) >> 11;
+    int32_t least = fix_max(interval >> 3, 1);
+    int32_t most = fix_max(interval - (interval >> 3), 1);
+    rise = rise < least ? least : rise > most ? most : rise;
+    return (int32_t)(round.rise < 0 ? -rise : rise);
 }
 
 /* --- Where ---------------------------------------------------------------------------------------
@@ -189,9 +190,6 @@ static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triang
         spot.beyond = true;
     return spot;
 }
-
-/* ------------------------------------------------------------------------------------------------
- */
 
 static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot, int32_t z)
 {

@@ -8,6 +8,7 @@
 #include "geofile.h"
 #include "isolines.h"
 #include "output.h"
+#include "part.h"
 #include "surface.h"
 
 enum {
@@ -26,34 +27,45 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"base", required_argument, NULL, OPTION_BASE},
                                         {"no-detail", no_argument, NULL, OPTION_NO_DETAIL},
                                         {"force", no_argument, NULL, OPTION_FORCE},
+                                        CLI_PART_LONG_OPTIONS,
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
 
 typedef struct {
     const char *input, *output;
+    cli_part_t part;
     double interval_m, base_m;
     bool smooth, force;
 } request_t;
 
 static int help(void)
 {
-    fputs("Usage: yamabiko contours MAP.yb -o OUT.geojson --interval M [OPTION ...]\n"
-          "\n"
-          "Writes contour lines of a map's reference surface: GeoJSON, or any format of OGR that\n"
-          "the file's ending names and that is a single file. Each line has its height in the\n"
-          "field `elevation`; it is closed or ends on the map's frame, and has the higher ground\n"
-          "on its left. Coordinates are metres from the frame's south-west corner; programs that\n"
-          "take every GeoJSON for degrees read the same lines rightly from a GeoPackage (.gpkg).\n"
-          "\n"
-          "  -o, --output FILE   the lines; - is the standard output\n"
-          "  --interval M        height from one contour to the next, in metres\n"
-          "  --base M            a height that has a contour (default 0, the datum)\n"
-          "  --no-detail         of the smooth surface, without fractal detail\n"
-          "  --force             overwrite what exists\n"
-          "  --help              this text\n"
-          "\n"
-          "Example:\n"
-          "  yamabiko contours fuji.yb -o fuji.geojson --interval 100\n",
+    fputs(
+        "Usage: yamabiko contours MAP.yb -o OUT.geojson --interval M [OPTION ...]\n"
+        "\n"
+        "Writes contour lines of a map's reference surface: GeoJSON, or any format of OGR that\n"
+        "the file's ending names and that is a single file. Each line has its height in the\n"
+        "field `elevation`; it is closed or ends on the map's frame, and has the higher ground\n"
+        "on its left. Coordinates are metres from the frame's south-west corner, or those of\n"
+        "the contour lines that the map is made of; programs that take every GeoJSON for\n"
+        "degrees read the same lines rightly from a GeoPackage (.gpkg).\n"
+        "\n"
+        "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+        "of GDAL: then the map has all their points, and no fractal detail.\n"
+        "\n"
+        "  -o, --output FILE   the lines; - is the standard output\n"
+        "  --interval M        height from one contour to the next, in metres\n"
+        "  --base M            a height that has a contour (default 0, the datum)\n"
+        "  --no-detail         of the smooth surface, without fractal detail\n"
+        "  --force             overwrite what exists\n"
+        "  --help              this text\n"
+        "\n",
+        stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\n"
+          "Examples:\n"
+          "  yamabiko contours fuji.yb -o fuji.geojson --interval 100\n"
+          "  yamabiko contours every-50-m.gpkg -o every-10-m.gpkg --interval 10\n",
           stdout);
     return CLI_OK;
 }
@@ -85,16 +97,16 @@ static int run(const request_t *request)
     yb_error_t error;
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
-    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    yb_code_file_t *file = cli_part_read_map(&request->part, request->input);
     if (file == NULL)
-        return cli_fail("%s", error.text);
+        return CLI_FAILED;
     file->map.detail = file->map.detail && !request->smooth;
     yb_mesh_t mesh = {0};
     yb_isolines_t lines = {0};
     bool good = yb_mesh_from_map(&mesh, &file->map, YB_REFERENCE_Q8) ||
                 yb_error_set(&error, "not enough memory for %s", request->output);
     good = good && find_lines(request, &mesh, &lines, &error) &&
-           yb_geofile_write_lines(request->output, request->force, &lines, &error);
+           yb_geofile_write_lines(request->output, request->force, &lines, &file->origin, &error);
     yb_isolines_free(&lines);
     yb_mesh_free(&mesh);
     yb_code_file_free(file);
@@ -105,7 +117,8 @@ int cli_contours(int argc, char **argv)
 {
     request_t request = {0};
     int answer = 0;
-    while ((answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
+    int status = CLI_OK;
+    while (status == CLI_OK && (answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         switch (answer) {
         case 'o':
             request.output = optarg;
@@ -127,11 +140,16 @@ int cli_contours(int argc, char **argv)
         case OPTION_HELP:
             return help();
         default:
-            return cli_bad_option(answer, argc, argv);
+            status = cli_part_owns(answer) ? cli_part_take(&request.part, answer, argc, argv)
+                                           : cli_bad_option(answer, argc, argv);
+            break;
         }
     }
+    status = status == CLI_OK ? cli_part_check(&request.part) : status;
+    if (status != CLI_OK)
+        return status;
     if (optind + 1 != argc)
-        return cli_usage("name one code, MAP.yb");
+        return cli_usage("name one map, MAP.yb");
     if (request.output == NULL)
         return cli_usage("name the file of lines: -o OUT.geojson");
     if (request.interval_m == 0)

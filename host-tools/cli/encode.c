@@ -13,17 +13,13 @@
 #include "encode.h"
 #include "output.h"
 #include "paper_code.h"
+#include "part.h"
 
 enum {
     OPTION_BYTES = 256,
     OPTION_PROFILE,
-    OPTION_WINDOW,
-    OPTION_CENTER,
-    OPTION_KM,
-    OPTION_CELL,
     OPTION_LEVELS,
     OPTION_INTERVAL,
-    OPTION_FIELD,
     OPTION_SEED,
     OPTION_EFFORT,
     OPTION_FORCE,
@@ -34,20 +30,16 @@ enum {
 
 /* Cells that a raster is read with: the lattice of a code has no more points. */
 enum {
-    GRID_SIDE = 256,
-    DEFAULT_KM = 20
+    GRID_SIDE = 256
 };
 
 static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                         {"bytes", required_argument, NULL, OPTION_BYTES},
                                         {"profile", required_argument, NULL, OPTION_PROFILE},
-                                        {"window", required_argument, NULL, OPTION_WINDOW},
-                                        {"center", required_argument, NULL, OPTION_CENTER},
-                                        {"km", required_argument, NULL, OPTION_KM},
-                                        {"cell", required_argument, NULL, OPTION_CELL},
+                                        CLI_PART_LONG_OPTIONS,
+                                        CLI_PART_CELL_OPTION,
                                         {"levels", required_argument, NULL, OPTION_LEVELS},
                                         {"interval", required_argument, NULL, OPTION_INTERVAL},
-                                        {"field", required_argument, NULL, OPTION_FIELD},
                                         {"seed", required_argument, NULL, OPTION_SEED},
                                         {"effort", required_argument, NULL, OPTION_EFFORT},
                                         {"force", no_argument, NULL, OPTION_FORCE},
@@ -58,11 +50,10 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {0}};
 
 typedef struct {
-    const char *input, *output, *field;
-    yb_window_t window;
+    const char *input, *output;
+    cli_part_t part;
     yb_encode_task_t task;
-    double km;
-    bool centered, boxed, force, json, hex, quiet;
+    bool force, json, hex, quiet;
 } request_t;
 
 static int help(void)
@@ -120,48 +111,6 @@ static int help(void)
     return CLI_OK;
 }
 
-/* `count` numbers: the option's value and the words after it. */
-static bool take_numbers(int argc, char **argv, double *value, int count)
-{
-    if (optind - 1 + count > argc)
-        return false;
-    for (int i = 0; i < count; i++)
-        if (!cli_number(argv[optind - 1 + i], &value[i]))
-            return false;
-    optind += count - 1;
-    return true;
-}
-
-static int take_place(request_t *request, int answer, int argc, char **argv)
-{
-    double place[2] = {0};
-    switch (answer) {
-    case OPTION_WINDOW:
-        request->boxed = true;
-        if (!take_numbers(argc, argv, request->window.box, 4))
-            return cli_usage("--window needs four numbers: XMIN YMIN XMAX YMAX");
-        if (request->window.box[0] >= request->window.box[2] ||
-            request->window.box[1] >= request->window.box[3])
-            return cli_usage("--window is empty: XMIN must be less than XMAX, YMIN less than YMAX");
-        return CLI_OK;
-    case OPTION_CENTER:
-        request->centered = true;
-        if (!take_numbers(argc, argv, place, 2) || fabs(place[0]) > 180 || fabs(place[1]) > 90)
-            return cli_usage("--center needs a longitude (-180 to 180) and a latitude (-90 to 90)");
-        request->window.lon_deg = place[0];
-        request->window.lat_deg = place[1];
-        return CLI_OK;
-    case OPTION_KM:
-        if (!cli_number(optarg, &request->km) || request->km <= 0 || request->km > 20000)
-            return cli_usage("--km needs a number above 0");
-        return CLI_OK;
-    default:
-        if (!cli_number(optarg, &request->window.cell_m) || request->window.cell_m <= 0)
-            return cli_usage("--cell needs a number of metres above 0");
-        return CLI_OK;
-    }
-}
-
 static int take_integer(const char *name, long low, long high, long *value)
 {
     if (!cli_integer(optarg, low, high, value))
@@ -208,6 +157,8 @@ static int take_coding(request_t *request, int answer)
 
 static int take_option(request_t *request, int answer, int argc, char **argv)
 {
+    if (cli_part_owns(answer))
+        return cli_part_take(&request->part, answer, argc, argv);
     switch (answer) {
     case 'o':
         request->output = optarg;
@@ -224,14 +175,6 @@ static int take_option(request_t *request, int answer, int argc, char **argv)
     case OPTION_HEX:
         request->hex = true;
         return CLI_OK;
-    case OPTION_FIELD:
-        request->field = optarg;
-        return CLI_OK;
-    case OPTION_WINDOW:
-    case OPTION_CENTER:
-    case OPTION_KM:
-    case OPTION_CELL:
-        return take_place(request, answer, argc, argv);
     case OPTION_BYTES:
     case OPTION_PROFILE:
     case OPTION_LEVELS:
@@ -330,13 +273,13 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
 
 static bool encode_raster(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
 {
-    yb_grid_t *grid = yb_grid_read(request->input, &request->window, GRID_SIDE, error);
+    yb_grid_t *grid = yb_grid_read(request->input, &request->part.window, GRID_SIDE, error);
     if (grid == NULL)
         return false;
     if (grid->holes > 0 && !request->quiet)
         fprintf(stderr, "%s: %.2g %% of the heights were missing and are filled from around\n",
                 request->input, 100 * grid->holes);
-    if (!grid->placed && request->window.cell_m <= 0 && !request->quiet)
+    if (!grid->placed && request->part.window.cell_m <= 0 && !request->quiet)
         fprintf(stderr, "%s does not tell the size of its cells: %g m are assumed (--cell)\n",
                 request->input, YB_GRID_DEFAULT_CELL_M);
     bool good = yb_encode_grid(grid, &request->task, result, error);
@@ -347,7 +290,7 @@ static bool encode_raster(const request_t *request, yb_encode_result_t *result, 
 static bool encode_vector(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
 {
     yb_lines_t *lines =
-        yb_lines_from_vector(request->input, request->field, &request->window, error);
+        yb_lines_from_vector(request->input, request->part.field, &request->part.window, error);
     if (lines == NULL)
         return false;
     if (lines->dropped > 0 && !request->quiet)
@@ -364,7 +307,7 @@ static int run(const request_t *request)
     yb_encode_result_t result;
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
-    bool vector = request->field != NULL || yb_lines_is_vector(request->input);
+    bool vector = request->part.field != NULL || yb_lines_is_vector(request->input);
     bool good =
         vector ? encode_vector(request, &result, &error) : encode_raster(request, &result, &error);
     if (good && request->task.progress != NULL)
@@ -385,22 +328,13 @@ static int check_request(request_t *request)
 {
     if (request->output == NULL)
         return cli_usage("name the code to write: -o MAP.yb");
-    if (request->boxed && request->centered)
-        return cli_usage("--window and --center exclude each other");
     if (request->task.levels > 0 && request->task.interval_m > 0)
         return cli_usage("--levels and --interval exclude each other");
-    if (request->km > 0 && !request->centered)
-        return cli_usage("--km needs --center");
     if (request->json && strcmp(request->output, "-") == 0)
         return cli_usage("--json and -o - both want the standard output");
-    request->window.side_m = 1000 * (request->km > 0 ? request->km : DEFAULT_KM);
-    if (request->boxed)
-        request->window.kind = YB_WINDOW_BOX;
-    else if (request->centered)
-        request->window.kind = YB_WINDOW_CENTER;
     if (!request->quiet && isatty(STDERR_FILENO) && isatty(STDOUT_FILENO))
         request->task.progress = show_progress;
-    return CLI_OK;
+    return cli_part_check(&request->part);
 }
 
 int cli_encode(int argc, char **argv)

@@ -11,31 +11,23 @@
 #include "grid.h"
 #include "line_grid.h"
 #include "output.h"
+#include "part.h"
 #include "picture.h"
 #include "sheet.h"
 #include "view_options.h"
 
 enum {
-    OPTION_WINDOW = 256,
-    OPTION_CENTER,
-    OPTION_KM,
-    OPTION_CELL,
-    OPTION_FIELD,
-    OPTION_JSON,
+    OPTION_JSON = 256,
     OPTION_SHEET,
     OPTION_FORCE,
     OPTION_HELP
 };
 enum {
-    LATTICE = 256,
-    DEFAULT_KM = 20
+    LATTICE = 256
 };
 
-static const struct option options[] = {{"window", required_argument, NULL, OPTION_WINDOW},
-                                        {"center", required_argument, NULL, OPTION_CENTER},
-                                        {"km", required_argument, NULL, OPTION_KM},
-                                        {"cell", required_argument, NULL, OPTION_CELL},
-                                        {"field", required_argument, NULL, OPTION_FIELD},
+static const struct option options[] = {CLI_PART_LONG_OPTIONS,
+                                        CLI_PART_CELL_OPTION,
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"sheet", required_argument, NULL, OPTION_SHEET},
                                         {"force", no_argument, NULL, OPTION_FORCE},
@@ -44,9 +36,8 @@ static const struct option options[] = {{"window", required_argument, NULL, OPTI
                                         {0}};
 
 typedef struct {
-    const char *input, *reference, *field, *sheet;
-    yb_window_t window;
-    double km;
+    const char *input, *reference, *sheet;
+    cli_part_t part;
     bool json, force, help;
     yb_view_options_t view;
 } request_t;
@@ -59,6 +50,9 @@ static void help(void)
         "Says how faithful a code is to what it was made from. REFERENCE is a raster of heights\n"
         "or a vector file of contour lines with their heights, in any format of GDAL. The map is\n"
         "compared with contour lines themselves for K, with a surface through them otherwise.\n"
+        "\n"
+        "MAP.yb may be a vector file of contour lines, too: then the map has all their points,\n"
+        "and window and field hold for both files.\n"
         "\n"
         "  RMSE    root of the mean squared difference of height\n"
         "  NRMSE   RMSE over the standard deviation of the real heights\n"
@@ -88,61 +82,17 @@ static void help(void)
           stdout);
 }
 
-/* The numbers of an option that has several: the first in optarg, the others in argv. */
-static bool take_numbers(int argc, char **argv, int count, double *value)
-{
-    for (int i = 0; i < count; i++) {
-        const char *text = i == 0 ? optarg : optind < argc ? argv[optind++] : "";
-        if (!cli_number(text, &value[i]))
-            return false;
-    }
-    return true;
-}
-
-static int take_window(request_t *request, int answer, int argc, char **argv)
-{
-    double place[2];
-    switch (answer) {
-    case OPTION_WINDOW:
-        request->window.kind = YB_WINDOW_BOX;
-        if (!take_numbers(argc, argv, 4, request->window.box))
-            return cli_usage("--window needs four numbers: XMIN YMIN XMAX YMAX");
-        return CLI_OK;
-    case OPTION_CENTER:
-        request->window.kind = YB_WINDOW_CENTER;
-        if (!take_numbers(argc, argv, 2, place))
-            return cli_usage("--center needs two numbers: LON LAT");
-        request->window.lon_deg = place[0];
-        request->window.lat_deg = place[1];
-        return CLI_OK;
-    case OPTION_KM:
-        if (!cli_number(optarg, &request->km) || request->km <= 0)
-            return cli_usage("--km: '%s' is not a length above 0", optarg);
-        return CLI_OK;
-    default:
-        if (!cli_number(optarg, &request->window.cell_m) || request->window.cell_m <= 0)
-            return cli_usage("--cell: '%s' is not a length above 0", optarg);
-        return CLI_OK;
-    }
-}
-
 static int take(request_t *request, int answer, int argc, char **argv)
 {
     yb_error_t error;
+    if (cli_part_owns(answer))
+        return cli_part_take(&request->part, answer, argc, argv);
     if (yb_view_options_owns(answer)) {
         if (!yb_view_options_take(&request->view, answer, argc, argv, &error))
             return cli_usage("%s", error.text);
         return CLI_OK;
     }
     switch (answer) {
-    case OPTION_WINDOW:
-    case OPTION_CENTER:
-    case OPTION_KM:
-    case OPTION_CELL:
-        return take_window(request, answer, argc, argv);
-    case OPTION_FIELD:
-        request->field = optarg;
-        return CLI_OK;
     case OPTION_JSON:
         request->json = true;
         return CLI_OK;
@@ -163,11 +113,8 @@ static int take(request_t *request, int answer, int argc, char **argv)
 static int check(request_t *request)
 {
     yb_error_t error;
-    request->window.side_m = 1000 * (request->km > 0 ? request->km : DEFAULT_KM);
     if (request->input == NULL)
         return cli_usage("name one code and one reference: MAP.yb REFERENCE");
-    if (request->km > 0 && request->window.kind != YB_WINDOW_CENTER)
-        return cli_usage("--km needs --center");
     if (request->json && request->sheet != NULL && strcmp(request->sheet, "-") == 0)
         return cli_usage("--json and '--sheet -' both want the standard output");
     if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||
@@ -176,7 +123,7 @@ static int check(request_t *request)
         return cli_usage("--size, --format and --band do not apply: the sheet has its own size");
     if (!yb_view_options_check(&request->view, &error))
         return cli_usage("%s", error.text);
-    return CLI_OK;
+    return cli_part_check(&request->part);
 }
 
 static void print_misfit(const char *name, const yb_misfit_t *misfit)
@@ -187,8 +134,13 @@ static void print_misfit(const char *name, const yb_misfit_t *misfit)
 
 static void print_fidelity(const yb_fidelity_t *fidelity)
 {
-    printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes, (unsigned)fidelity->points,
-           (unsigned)fidelity->contours, (unsigned)fidelity->body_bits);
+    if (fidelity->bytes > 0)
+        printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes,
+               (unsigned)fidelity->points, (unsigned)fidelity->contours,
+               (unsigned)fidelity->body_bits);
+    else
+        printf("no code: contour lines   N %u   M %u\n", (unsigned)fidelity->points,
+               (unsigned)fidelity->contours);
     print_misfit("smooth", &fidelity->smooth);
     print_misfit("with detail", &fidelity->detail);
     printf("K %.4f\n", fidelity->k);
@@ -267,16 +219,17 @@ static int run(const request_t *request)
     yb_error_t error;
     if (request->sheet != NULL && !yb_output_allowed(request->sheet, request->force, &error))
         return cli_fail("%s", error.text);
-    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    yb_code_file_t *file = cli_part_read_map(&request->part, request->input);
     if (file == NULL)
-        return cli_fail("%s", error.text);
+        return CLI_FAILED;
     yb_lines_t *lines = NULL;
     yb_grid_t *reference = NULL;
     if (yb_lines_is_vector(request->reference)) {
-        lines = yb_lines_from_vector(request->reference, request->field, &request->window, &error);
+        lines = yb_lines_from_vector(request->reference, request->part.field, &request->part.window,
+                                     &error);
         reference = lines != NULL ? yb_line_grid_new(lines, &error) : NULL;
     } else {
-        reference = yb_grid_read(request->reference, &request->window, LATTICE, &error);
+        reference = yb_grid_read(request->reference, &request->part.window, LATTICE, &error);
     }
     const bool good = reference != NULL && evaluate(request, file, reference, lines, &error);
     yb_grid_free(reference);
@@ -287,7 +240,7 @@ static int run(const request_t *request)
 
 int cli_evaluate(int argc, char **argv)
 {
-    request_t request = {.view = yb_view_options_default()};
+    request_t request = {.part = {.shared = true}, .view = yb_view_options_default()};
     int answer = 0;
     while ((answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
         const int status = take(&request, answer, argc, argv);

@@ -10,6 +10,7 @@
 
 #include "code_file.h"
 #include "paper_code.h"
+#include "part.h"
 
 enum {
     OPTION_JSON = 256,
@@ -17,8 +18,10 @@ enum {
     HEADER_BITS = 14 * 8
 };
 
-static const struct option options[] = {
-    {"json", no_argument, NULL, OPTION_JSON}, {"help", no_argument, NULL, OPTION_HELP}, {0}};
+static const struct option options[] = {{"json", no_argument, NULL, OPTION_JSON},
+                                        CLI_PART_LONG_OPTIONS,
+                                        {"help", no_argument, NULL, OPTION_HELP},
+                                        {0}};
 
 /* Where the bits of a code went; they add up to its size. */
 typedef struct {
@@ -44,11 +47,11 @@ typedef struct {
 static int help(void)
 {
     fputs(
-        "Usage: yamabiko info MAP.yb [--json]\n"
+        "Usage: yamabiko info MAP.yb [OPTION ...]\n"
         "\n"
         "Says what is in a code: size and scale of the map, its contours and how they lie in\n"
         "each other, the mesh that the engine makes of them, and where each bit went. MAP.yb\n"
-        "may be - for the standard input.\n"
+        "may be - for the standard input, or a vector file of contour lines.\n"
         "\n"
         "N is the number of points, M of contours (spot heights among them); F = 12 N + 20 M + 8\n"
         "is the length of the body in bits. The header, the points of each contour and the\n"
@@ -57,12 +60,15 @@ static int help(void)
         "D is the fractal dimension of the contours of a level together, H = 2 - D is that of\n"
         "the surface: the smaller H, the rougher it is.\n"
         "\n"
-        "  --json                the same for machines\n"
-        "  --help                this text\n"
-        "\n"
-        "Example:\n"
-        "  yamabiko info fuji.yb\n",
+        "  --json              the same for machines\n"
+        "  --help              this text\n"
+        "\n",
         stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\n"
+          "Example:\n"
+          "  yamabiko info fuji.yb\n",
+          stdout);
     return CLI_OK;
 }
 
@@ -133,10 +139,12 @@ static void gather(info_t *info, const char *name, const yb_code_file_t *file)
         info->points += file->load.contour[i].count;
         info->spots += file->load.contour[i].count == 1;
     }
+    find_tree(info);
+    if (file->size == 0) /* lines: there is no code */
+        return;
     for (int bit = 4; bit < 8; bit++)
         info->corners += file->bytes[1] >> bit & 1;
     find_budget(info);
-    find_tree(info);
 }
 
 static const char *kind_of(const yb_contour_t *contour)
@@ -208,29 +216,60 @@ static void print_budget(const info_t *info)
     printf("  %-18s %5d\n", "in all", all);
 }
 
-static void print_text(const info_t *info)
+static void print_frame(const info_t *info)
+{
+    double east = info->file->map.east_q8 / 256.0;
+    double north = info->file->map.north_q8 / 256.0;
+    printf("  frame              %.6g x %.6g steps of %.6g m: %.4g x %.4g km\n", east, north,
+           info->cell_m, east * info->cell_m / 1000, north * info->cell_m / 1000);
+}
+
+static void print_mesh(const info_t *info)
+{
+    printf("  mesh               %d vertices, %u triangles, %d regions\n",
+           info->file->map.vertex_count, (unsigned)info->file->map.triangle_count,
+           info->file->load.region_count);
+}
+
+static void print_code(const info_t *info)
 {
     const yb_map_t *map = &info->file->map;
     int contours = info->file->load.contour_count;
     int f_bits = 12 * info->points + 20 * contours + 8;
     double hurst = (map->hurst_q8m1 + 1) / 256.0;
-    int east = map->east_q8 >> 8;
-    int north = map->north_q8 >> 8;
     printf("%s: %zu bytes, format %d, profile paper\n", info->name, info->file->size,
            YB_FORMAT_VERSION);
     printf("  N = %d points, M = %d contours (%d of them spot heights), F = %d bits = %d bytes\n",
            info->points, contours, info->spots, f_bits, (f_bits + 7) / 8);
-    printf("  frame              %d x %d steps of %.6g m: %.4g x %.4g km\n", east, north,
-           info->cell_m, east * info->cell_m / 1000, north * info->cell_m / 1000);
+    print_frame(info);
     printf("  heights            %.1f to %.1f m, coded in units of %.6g m above %d m\n",
            height_m(info, map->low_q8), height_m(info, map->high_q8), info->unit_m, map->base_m);
     printf("  differences        multiples of %d\n", 1 << (info->file->bytes[1] & 3));
     printf("  corner heights     %d coded\n", info->corners);
     printf("  D = %.3f, H = %.3f, gain %.2f, seed %d, %s midpoints\n", 2 - hurst, hurst,
            info->file->bytes[13] / 32.0, map->seed, map->smooth ? "smooth" : "straight");
-    printf("  mesh               %d vertices, %d triangles, %d regions\n", map->vertex_count,
-           map->triangle_count, info->file->load.region_count);
+    print_mesh(info);
     print_budget(info);
+}
+
+static void print_lines(const info_t *info)
+{
+    const yb_map_t *map = &info->file->map;
+    printf("%s: contour lines in full detail, no code\n", info->name);
+    printf("  %d points, %d contours (%d of them spot heights)\n", info->points,
+           info->file->load.contour_count, info->spots);
+    print_frame(info);
+    printf("  heights            %.1f to %.1f m\n", height_m(info, map->low_q8),
+           height_m(info, map->high_q8));
+    print_mesh(info);
+}
+
+static void print_text(const info_t *info)
+{
+    if (info->file->size > 0)
+        print_code(info);
+    else
+        print_lines(info);
     print_contours(info);
     print_tree(info);
 }
@@ -244,6 +283,12 @@ static json_t *json_budget(const budget_t *budget)
                      budget->check);
 }
 
+/* Whole steps, as in a code, are whole numbers. */
+static json_t *json_steps(int at_q8)
+{
+    return at_q8 % 256 == 0 ? json_integer(at_q8 / 256) : json_real(at_q8 / 256.0);
+}
+
 static json_t *json_contours(const info_t *info)
 {
     json_t *list = json_array();
@@ -252,7 +297,8 @@ static json_t *json_contours(const info_t *info)
         json_t *points = json_array();
         for (int k = 0; k < contour->count; k++) {
             const yb_vertex_t *at = &info->file->map.vertex[contour->first + k];
-            json_array_append_new(points, json_pack("[i, i]", at->x_q8 >> 8, at->y_q8 >> 8));
+            json_array_append_new(points,
+                                  json_pack("[o, o]", json_steps(at->x_q8), json_steps(at->y_q8)));
         }
         json_array_append_new(list, json_pack("{s:s, s:f, s:i, s:i, s:o}", "kind", kind_of(contour),
                                               "height_m", contour_m(info, i), "left", contour->left,
@@ -270,34 +316,44 @@ static json_t *json_regions(const info_t *info)
     return list;
 }
 
-static int print_json(const info_t *info)
+/* What a code says beyond the map itself. */
+static void json_code(const info_t *info, json_t *root)
 {
     const yb_map_t *map = &info->file->map;
     int contours = info->file->load.contour_count;
     double hurst = (map->hurst_q8m1 + 1) / 256.0;
-    json_t *root = json_pack("{s:s, s:I, s:i, s:s, s:i, s:i, s:i}", "file", info->name, "bytes",
-                             (json_int_t)info->file->size, "format", YB_FORMAT_VERSION, "profile",
-                             "paper", "n", info->points, "m", contours, "f_bits",
-                             12 * info->points + 20 * contours + 8);
-    if (root == NULL)
-        return cli_fail("out of memory");
-    json_object_set_new(root, "east", json_integer(map->east_q8 >> 8));
-    json_object_set_new(root, "north", json_integer(map->north_q8 >> 8));
+    json_object_set_new(root, "bytes", json_integer((json_int_t)info->file->size));
+    json_object_set_new(root, "format", json_integer(YB_FORMAT_VERSION));
+    json_object_set_new(root, "profile", json_string("paper"));
+    json_object_set_new(root, "f_bits", json_integer(12 * info->points + 20 * contours + 8));
     json_object_set_new(root, "shift", json_integer(info->file->bytes[1] & 3));
     json_object_set_new(root, "corners_coded", json_integer(info->corners));
-    json_object_set_new(root, "cell_m", json_real(info->cell_m));
     json_object_set_new(root, "unit_m", json_real(info->unit_m));
-    json_object_set_new(root, "base_m", json_integer(map->base_m));
-    json_object_set_new(root, "low_m", json_real(height_m(info, map->low_q8)));
-    json_object_set_new(root, "high_m", json_real(height_m(info, map->high_q8)));
     json_object_set_new(root, "dimension", json_real(2 - hurst));
     json_object_set_new(root, "hurst", json_real(hurst));
     json_object_set_new(root, "gain", json_real(info->file->bytes[13] / 32.0));
     json_object_set_new(root, "seed", json_integer(map->seed));
     json_object_set_new(root, "smooth", json_boolean(map->smooth));
+    json_object_set_new(root, "bits", json_budget(&info->budget));
+}
+
+static int print_json(const info_t *info)
+{
+    const yb_map_t *map = &info->file->map;
+    json_t *root = json_pack("{s:s, s:i, s:i}", "file", info->name, "n", info->points, "m",
+                             info->file->load.contour_count);
+    if (root == NULL)
+        return cli_fail("out of memory");
+    if (info->file->size > 0)
+        json_code(info, root);
+    json_object_set_new(root, "east", json_steps(map->east_q8));
+    json_object_set_new(root, "north", json_steps(map->north_q8));
+    json_object_set_new(root, "cell_m", json_real(info->cell_m));
+    json_object_set_new(root, "base_m", json_integer(map->base_m));
+    json_object_set_new(root, "low_m", json_real(height_m(info, map->low_q8)));
+    json_object_set_new(root, "high_m", json_real(height_m(info, map->high_q8)));
     json_object_set_new(root, "vertices", json_integer(map->vertex_count));
     json_object_set_new(root, "triangles", json_integer(map->triangle_count));
-    json_object_set_new(root, "bits", json_budget(&info->budget));
     json_object_set_new(root, "contours", json_contours(info));
     json_object_set_new(root, "regions", json_regions(info));
     json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(8));
@@ -309,22 +365,28 @@ static int print_json(const info_t *info)
 int cli_info(int argc, char **argv)
 {
     bool json = false;
+    cli_part_t part = {0};
     int answer = 0;
-    while ((answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
+    int status = CLI_OK;
+    while (status == CLI_OK && (answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
         if (answer == OPTION_HELP)
             return help();
-        if (answer != OPTION_JSON)
-            return cli_bad_option(answer, argc, argv);
-        json = true;
+        if (cli_part_owns(answer))
+            status = cli_part_take(&part, answer, argc, argv);
+        else if (answer == OPTION_JSON)
+            json = true;
+        else
+            status = cli_bad_option(answer, argc, argv);
     }
+    status = status == CLI_OK ? cli_part_check(&part) : status;
+    if (status != CLI_OK)
+        return status;
     if (argc - optind != 1)
         return cli_usage(argc == optind ? "name the map" : "more than one map");
-    yb_error_t error;
-    yb_code_file_t *file = yb_code_file_read(argv[optind], &error);
+    yb_code_file_t *file = cli_part_read_map(&part, argv[optind]);
     if (file == NULL)
-        return cli_fail("%s", error.text);
+        return CLI_FAILED;
     info_t *info = calloc(1, sizeof(*info));
-    int status = CLI_OK;
     if (info == NULL) {
         status = cli_fail("out of memory");
     } else {

@@ -9,6 +9,7 @@
 #include "mesh_drawing.h"
 #include "obj_file.h"
 #include "output.h"
+#include "part.h"
 #include "surface.h"
 
 enum {
@@ -38,11 +39,13 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"width", required_argument, NULL, OPTION_WIDTH},
                                         {"plain", no_argument, NULL, OPTION_PLAIN},
                                         {"force", no_argument, NULL, OPTION_FORCE},
+                                        CLI_PART_LONG_OPTIONS,
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
 
 typedef struct {
     const char *input, *output;
+    cli_part_t part;
     long depth;
     bool reference, smooth, force;
     bool svg;
@@ -61,7 +64,10 @@ static int help(void)
           "Writes a map's triangles as a Wavefront OBJ file: metres, x east and y north from the\n"
           "south-west corner of the frame, z up above the datum; corners that triangles share are\n"
           "written once. Without --depth or --reference these are the base triangles, whose\n"
-          "corners are the points of the coded contours and those that the rules added.\n"
+          "corners are the points of the contours and those that the rules add.\n"
+          "\n"
+          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+          "of GDAL: then the map has all their points, and no fractal detail.\n"
           "If the file ends .svg or .png, draws the base triangles in plan instead, north up.\n"
           "\n"
           "  -o, --output FILE   the mesh, ending .obj, or the drawing, ending .svg or\n"
@@ -82,7 +88,10 @@ static int help(void)
           "  --width PIXELS      of the page, 100 to 8000, 600 or more with a legend (default\n"
           "                      1000)\n"
           "  --plain             the plan alone, without title and legend\n"
-          "\n"
+          "\n",
+          stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\n"
           "Examples:\n"
           "  yamabiko mesh fuji.yb -o fuji.obj --depth 6\n"
           "  yamabiko mesh fuji.yb -o fuji.svg --stage links\n",
@@ -115,9 +124,9 @@ static int run(const request_t *request)
     yb_error_t error;
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
-    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    yb_code_file_t *file = cli_part_read_map(&request->part, request->input);
     if (file == NULL)
-        return cli_fail("%s", error.text);
+        return CLI_FAILED;
     file->map.detail = file->map.detail && !request->smooth;
     const bool good = request->draws
                           ? yb_mesh_drawing_write(request->output, request->force, &file->map,
@@ -144,10 +153,7 @@ static int check_drawing(request_t *request)
         return cli_usage("a drawing shows the base triangles: leave --depth, --reference and "
                          "--no-detail out");
     const char *slash = strrchr(request->input, '/');
-    const bool standard = strcmp(request->input, "-") == 0;
-    request->drawing.name = standard        ? "standard input"
-                            : slash == NULL ? request->input
-                                            : slash + 1;
+    request->drawing.name = slash == NULL ? request->input : slash + 1;
     request->drawing.width = request->width == 0 ? DRAWING_WIDTH : (uint32_t)request->width;
     if (!request->drawing.plain && request->drawing.width < YB_MESH_DRAWING_LEAST)
         return cli_usage("--width: with a legend at least %d pixels; --plain leaves it out",
@@ -194,8 +200,9 @@ static int take_drawing(request_t *request, int answer)
 int cli_mesh(int argc, char **argv)
 {
     request_t request = {.depth = BASE_TRIANGLES, .drawing = {.stage = YB_STAGE_TRIANGLES}};
-    int answer = 0, status = CLI_OK;
-    while ((answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
+    int answer = 0;
+    int status = CLI_OK;
+    while (status == CLI_OK && (answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         switch (answer) {
         case 'o':
             request.output = optarg;
@@ -218,8 +225,6 @@ int cli_mesh(int argc, char **argv)
         case OPTION_WIDTH:
         case OPTION_PLAIN:
             status = take_drawing(&request, answer);
-            if (status != CLI_OK)
-                return status;
             break;
         case OPTION_FORCE:
             request.force = true;
@@ -227,11 +232,16 @@ int cli_mesh(int argc, char **argv)
         case OPTION_HELP:
             return help();
         default:
-            return cli_bad_option(answer, argc, argv);
+            status = cli_part_owns(answer) ? cli_part_take(&request.part, answer, argc, argv)
+                                           : cli_bad_option(answer, argc, argv);
+            break;
         }
     }
+    status = status == CLI_OK ? cli_part_check(&request.part) : status;
+    if (status != CLI_OK)
+        return status;
     if (optind + 1 != argc)
-        return cli_usage("name one code, MAP.yb");
+        return cli_usage("name one map, MAP.yb");
     request.input = argv[optind];
     status = check(&request);
     return status != CLI_OK ? status : run(&request);

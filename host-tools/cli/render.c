@@ -11,6 +11,7 @@
 #include "code_file.h"
 #include "numbered.h"
 #include "output.h"
+#include "part.h"
 #include "picture.h"
 #include "still.h"
 #include "view_options.h"
@@ -28,12 +29,14 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"orbit", required_argument, NULL, OPTION_ORBIT},
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"force", no_argument, NULL, OPTION_FORCE},
+                                        CLI_PART_LONG_OPTIONS,
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         YB_VIEW_LONG_OPTIONS,
                                         {0}};
 
 typedef struct {
     const char *input, *output;
+    cli_part_t part;
     const yb_panel_t *panel;
     long orbit;
     bool json, force, help;
@@ -47,6 +50,9 @@ static void help(void)
           "Draws a map with the very code that runs in the firmware: the same pixels.\n"
           "MAP.yb may be - for the standard input, OUT.png may be - for the standard output.\n"
           "\n"
+          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+          "of GDAL: then the map has all their points, and no fractal detail.\n"
+          "\n"
           "  -o, --output FILE   the picture, a PNG file\n"
           "  --panel NAME        the exact pixels of a panel, grey levels times 17: ssd0323\n"
           "                      (128x64, 16 greys)\n"
@@ -57,9 +63,10 @@ static void help(void)
           "                      and the hash (FNV-1a, 32 bits) of the pixel bytes\n"
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
-          "\n"
-          "View:\n",
+          "\n",
           stdout);
+    fputs(cli_part_help, stdout);
+    fputs("\nView:\n", stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"
           "Examples:\n"
@@ -72,6 +79,8 @@ static void help(void)
 static int take(request_t *request, int answer, int argc, char **argv)
 {
     yb_error_t error;
+    if (cli_part_owns(answer))
+        return cli_part_take(&request->part, answer, argc, argv);
     if (yb_view_options_owns(answer)) {
         if (!yb_view_options_take(&request->view, answer, argc, argv, &error))
             return cli_usage("%s", error.text);
@@ -107,7 +116,7 @@ static int check(request_t *request)
     yb_error_t error;
     const yb_view_options_t *view = &request->view;
     if (request->input == NULL)
-        return cli_usage("name one code, MAP.yb");
+        return cli_usage("name one map, MAP.yb");
     if (request->output == NULL)
         return cli_usage("name the picture: -o OUT.png");
     if (request->panel != NULL && (yb_view_options_given(view, YB_OPTION_SIZE) ||
@@ -125,7 +134,7 @@ static int check(request_t *request)
         request->view.screen = request->panel->screen;
     if (!yb_view_options_check(view, &error))
         return cli_usage("%s", error.text);
-    return CLI_OK;
+    return cli_part_check(&request->part);
 }
 
 static bool write_picture(const yb_still_t *still, const char *path, bool force, yb_error_t *error)
@@ -196,9 +205,9 @@ static int run(const request_t *request)
     yb_error_t error;
     if (request->orbit == 0 && !yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
-    yb_code_file_t *file = yb_code_file_read(request->input, &error);
+    yb_code_file_t *file = cli_part_read_map(&request->part, request->input);
     if (file == NULL)
-        return cli_fail("%s", error.text);
+        return CLI_FAILED;
 
     json_t *json = NULL;
     bool good = false;

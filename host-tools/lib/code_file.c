@@ -26,9 +26,9 @@ static bool load_failed(yb_error_t *error, const char *name, const uint8_t *byte
                             name, YB_FORMAT_VERSION, bytes[0]);
     case YB_ERR_LIMIT:
         return yb_error_set(error,
-                            "%s needs a build of Yamabiko with more than %d vertices "
-                            "(YB_MAX_VERTICES)",
-                            name, YB_MAX_VERTICES);
+                            "%s is damaged or comes from a faulty encoder: its mesh has more "
+                            "vertices than the code says",
+                            name);
     default:
         return yb_error_set(error,
                             "%s is damaged or no Yamabiko code: its check byte is wrong or its "
@@ -40,7 +40,7 @@ static bool load_failed(yb_error_t *error, const char *name, const uint8_t *byte
 yb_code_file_t *yb_code_file_from_bytes(const char *name, const uint8_t *bytes, size_t size,
                                         yb_error_t *error)
 {
-    yb_code_file_t *file = malloc(sizeof(*file) + size);
+    yb_code_file_t *file = calloc(1, sizeof(*file) + size);
     if (file == NULL) {
         yb_error_set(error, "%s: out of memory", name);
         return NULL;
@@ -87,5 +87,7 @@ yb_code_file_t *yb_code_file_read(const char *path, yb_error_t *error)
 
 void yb_code_file_free(yb_code_file_t *file)
 {
+    if (file != NULL)
+        free(file->origin.projection);
     free(file);
 }

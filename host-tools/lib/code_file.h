@@ -1,4 +1,4 @@
-/* A code and the map that the engine makes of it. */
+/* A code and the map that the engine makes of it; or contour lines and their map (map_file.h). */
 #ifndef YB_CODE_FILE_H
 #define YB_CODE_FILE_H
 
@@ -7,12 +7,14 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "contour_lines.h"
 #include "error.h"
 
 typedef struct {
     yb_map_t map;
-    yb_load_t load; /* its contours stay valid: see yamabiko.h */
-    size_t size;    /* of the code in bytes */
+    yb_load_t load;     /* its contours stay valid: see yamabiko.h */
+    size_t size;        /* of the code in bytes; 0: there is none, the map is made of lines */
+    yb_origin_t origin; /* of a map made of lines; a code does not say where it lies */
     uint8_t bytes[];
 } yb_code_file_t;
 

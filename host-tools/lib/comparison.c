@@ -31,14 +31,18 @@ static bool sizes_fit(const yb_comparison_t *comparison, const yb_grid_t *refere
 static float *map_heights(const yb_comparison_t *comparison, const yb_map_t *map)
 {
     const uint32_t columns = comparison->columns, rows = comparison->rows;
-    float *z_m = malloc((size_t)columns * rows * sizeof(*z_m));
-    for (uint32_t j = 0; z_m != NULL && j < rows; j++) {
-        const uint16_t y = (uint16_t)lround((double)map->north_q8 * j / (rows - 1));
-        for (uint32_t i = 0; i < columns; i++) {
-            const uint16_t x = (uint16_t)lround((double)map->east_q8 * i / (columns - 1));
-            z_m[(size_t)j * columns + i] = (float)yb_map_z_m(map, yb_map_height(map, x, y));
-        }
+    uint16_t *x_q8 = malloc(columns * sizeof(*x_q8));
+    uint16_t *y_q8 = malloc(rows * sizeof(*y_q8));
+    float *z_m = NULL;
+    if (x_q8 != NULL && y_q8 != NULL) {
+        for (uint32_t i = 0; i < columns; i++)
+            x_q8[i] = (uint16_t)lround((double)map->east_q8 * i / (columns - 1));
+        for (uint32_t j = 0; j < rows; j++)
+            y_q8[j] = (uint16_t)lround((double)map->north_q8 * j / (rows - 1));
+        z_m = yb_map_heights_m(map, x_q8, columns, y_q8, rows);
     }
+    free(x_q8);
+    free(y_q8);
     return z_m;
 }
 

@@ -30,6 +30,7 @@ void yb_lines_free(yb_lines_t *lines)
     for (int i = 0; i < lines->count; i++)
         free(lines->line[i].place);
     free(lines->line);
+    free(lines->origin.projection);
     free(lines);
 }
 

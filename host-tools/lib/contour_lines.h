@@ -23,8 +23,15 @@ typedef struct {
     yb_place_t *place;
 } yb_line_t;
 
+/* Where on earth a frame lies: its south-west corner in a projection whose unit is the metre. */
+typedef struct {
+    double west_m, south_m;
+    char *projection; /* WKT, or NULL if nobody says which */
+} yb_origin_t;
+
 typedef struct {
     double width_m, depth_m; /* the frame */
+    yb_origin_t origin;      /* of lines from a file */
     int count;
     yb_line_t *line;
     int room;    /* of the array; private */

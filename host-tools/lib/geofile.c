@@ -97,9 +97,23 @@ static bool write_file(const char *path, bool force, bool lines, write_fn write,
     return good;
 }
 
+/* The system of the coordinates written; without one some formats assume degrees. */
+static OGRSpatialReferenceH system_of(const yb_origin_t *origin)
+{
+    OGRSpatialReferenceH srs = OSRNewSpatialReference(origin->projection);
+    if (origin->projection == NULL) {
+        OSRSetLocalCS(srs, "metres from the south-west corner");
+        OSRSetLinearUnits(srs, SRS_UL_METER, 1);
+    }
+    return srs;
+}
+
+static const yb_origin_t nowhere = {0};
+
 typedef struct {
     const yb_raster_t *raster;
     const float *z_m;
+    const yb_origin_t *origin;
 } heights_t;
 
 static bool write_heights(GDALDriverH driver, const char *path, const void *what)
@@ -111,10 +125,16 @@ static bool write_heights(GDALDriverH driver, const char *path, const void *what
         GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 1, GDT_Float32, NULL);
     if (memory == NULL)
         return false;
-    double transform[6] = {
-        raster->west_m, raster->cell_m, 0, raster->south_m + rows * raster->cell_m, 0,
-        -raster->cell_m};
+    const yb_origin_t *origin = heights->origin;
+    double transform[6] = {origin->west_m + raster->west_m,
+                           raster->cell_m,
+                           0,
+                           origin->south_m + raster->south_m + rows * raster->cell_m,
+                           0,
+                           -raster->cell_m};
     bool good = GDALSetGeoTransform(memory, transform) == CE_None;
+    if (origin->projection != NULL)
+        good = good && GDALSetProjection(memory, origin->projection) == CE_None;
     GDALRasterBandH band = GDALGetRasterBand(memory, 1);
     for (int j = 0; good && j < rows; j++) {
         /* GDAL reads from the buffer, but its signature cannot say so. */
@@ -133,20 +153,27 @@ static bool write_heights(GDALDriverH driver, const char *path, const void *what
 }
 
 bool yb_geofile_write_raster(const char *path, bool force, const yb_raster_t *raster,
-                             const float *z_m, yb_error_t *error)
+                             const float *z_m, const yb_origin_t *origin, yb_error_t *error)
 {
-    const heights_t heights = {raster, z_m};
+    const heights_t heights = {raster, z_m, origin != NULL ? origin : &nowhere};
     return write_file(path, force, false, write_heights, &heights, error);
 }
 
-static bool write_line(OGRLayerH layer, const yb_isoline_t *line)
+typedef struct {
+    const yb_isolines_t *lines;
+    const yb_origin_t *origin;
+} placed_lines_t;
+
+static bool write_line(OGRLayerH layer, const yb_isoline_t *line, const yb_origin_t *origin)
 {
     OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
     OGRGeometryH geometry = OGR_G_CreateGeometry(wkbLineString);
     for (size_t i = 0; i < line->count; i++)
-        OGR_G_AddPoint_2D(geometry, line->point[i].x, line->point[i].y);
+        OGR_G_AddPoint_2D(geometry, origin->west_m + line->point[i].x,
+                          origin->south_m + line->point[i].y);
     if (line->closed)
-        OGR_G_AddPoint_2D(geometry, line->point[0].x, line->point[0].y);
+        OGR_G_AddPoint_2D(geometry, origin->west_m + line->point[0].x,
+                          origin->south_m + line->point[0].y);
     OGR_F_SetFieldDouble(feature, 0, line->height_m);
     const bool good = OGR_F_SetGeometryDirectly(feature, geometry) == OGRERR_NONE &&
                       OGR_L_CreateFeature(layer, feature) == OGRERR_NONE;
@@ -156,27 +183,26 @@ static bool write_line(OGRLayerH layer, const yb_isoline_t *line)
 
 static bool write_lines(GDALDriverH driver, const char *path, const void *what)
 {
-    const yb_isolines_t *lines = what;
+    const placed_lines_t *placed = what;
+    const yb_isolines_t *lines = placed->lines;
     GDALDatasetH dataset = GDALCreate(driver, path, 0, 0, 0, GDT_Unknown, NULL);
     if (dataset == NULL)
         return false;
-    /* Without a system some formats assume degrees. */
-    OGRSpatialReferenceH metres = OSRNewSpatialReference(NULL);
-    OSRSetLocalCS(metres, "metres from the south-west corner");
-    OSRSetLinearUnits(metres, SRS_UL_METER, 1);
+    OGRSpatialReferenceH metres = system_of(placed->origin);
     OGRLayerH layer = GDALDatasetCreateLayer(dataset, "contours", metres, wkbLineString, NULL);
     OSRRelease(metres);
     OGRFieldDefnH field = OGR_Fld_Create("elevation", OFTReal);
     bool good = layer != NULL && OGR_L_CreateField(layer, field, TRUE) == OGRERR_NONE;
     OGR_Fld_Destroy(field);
     for (size_t i = 0; good && i < lines->count; i++)
-        good = write_line(layer, &lines->line[i]);
+        good = write_line(layer, &lines->line[i], placed->origin);
     GDALClose(dataset);
     return good && CPLGetLastErrorType() < CE_Failure;
 }
 
 bool yb_geofile_write_lines(const char *path, bool force, const yb_isolines_t *lines,
-                            yb_error_t *error)
+                            const yb_origin_t *origin, yb_error_t *error)
 {
-    return write_file(path, force, true, write_lines, lines, error);
+    const placed_lines_t placed = {lines, origin != NULL ? origin : &nowhere};
+    return write_file(path, force, true, write_lines, &placed, error);
 }

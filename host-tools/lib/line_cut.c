@@ -7,6 +7,8 @@
 #include <cpl_conv.h>
 #include <geos_c.h>
 
+#include "line_join.h"
+
 /* A gap of up to this share of a line's length is closed. */
 static const double most_gap = 0.1;
 
@@ -91,25 +93,51 @@ static bool add_line(yb_lines_t *lines, double height_m, yb_place_t *place, int 
     return yb_lines_add(lines, height_m, closed, place, count);
 }
 
-static bool add_geos_line(GEOSContextHandle_t geos, yb_lines_t *lines, double height_m,
-                          const GEOSGeometry *geometry, double snap_m)
+/* The places of a line string; none of a point, which is what a line that only touched the frame
+ * leaves. False: out of memory.
+ */
+static bool take_piece(GEOSContextHandle_t geos, const GEOSGeometry *geometry, yb_piece_t *piece)
 {
+    *piece = (yb_piece_t){NULL, 0};
     if (GEOSGeomTypeId_r(geos, geometry) != GEOS_LINESTRING)
-        return true; /* a line that only touched the frame leaves a point */
+        return true;
     const GEOSCoordSequence *sequence = GEOSGeom_getCoordSeq_r(geos, geometry);
     unsigned count = 0;
     if (sequence == NULL || GEOSCoordSeq_getSize_r(geos, sequence, &count) == 0)
         return false;
     if (count < 2)
         return true;
-    yb_place_t *place = calloc(count, sizeof(*place));
-    if (place == NULL)
+    piece->place = calloc(count, sizeof(*piece->place));
+    if (piece->place == NULL)
         return false;
+    piece->count = (int)count;
     bool good = true;
-    for (unsigned i = 0; i < count && good; i++)
-        good = GEOSCoordSeq_getXY_r(geos, sequence, i, &place[i].x_m, &place[i].y_m) != 0;
-    good = good && add_line(lines, height_m, place, (int)count, snap_m);
-    free(place);
+    for (int i = 0; i < piece->count && good; i++)
+        good = GEOSCoordSeq_getXY_r(geos, sequence, (unsigned)i, &piece->place[i].x_m,
+                                    &piece->place[i].y_m) != 0;
+    return good;
+}
+
+/* Adds the lines that the parts of a geometry become, joined wherever they meet. */
+static bool add_parts(GEOSContextHandle_t geos, yb_lines_t *lines, double height_m,
+                      const GEOSGeometry *geometry, double snap_m)
+{
+    int parts = GEOSGetNumGeometries_r(geos, geometry);
+    int pieces = 0;
+    yb_piece_t *piece = calloc((size_t)parts + 1, sizeof(*piece));
+    bool good = piece != NULL;
+    for (int i = 0; i < parts && good; i++) {
+        good = take_piece(geos, GEOSGetGeometryN_r(geos, geometry, i), &piece[pieces]);
+        pieces += piece[pieces].place != NULL;
+    }
+    int joined = good ? yb_line_join(piece, pieces) : -1;
+    good = joined >= 0;
+    pieces = good ? joined : pieces;
+    for (int i = 0; i < pieces; i++) {
+        good = good && add_line(lines, height_m, piece[i].place, piece[i].count, snap_m);
+        free(piece[i].place);
+    }
+    free(piece);
     return good;
 }
 
@@ -118,10 +146,7 @@ bool yb_line_cut(yb_lines_t *lines, double height_m, OGRGeometryH geometry, doub
 {
     GEOSContextHandle_t geos = GEOS_init_r();
     GEOSGeometry *joined = geos != NULL ? cut_and_join(geos, lines, geometry) : NULL;
-    bool good = joined != NULL;
-    int parts = good ? GEOSGetNumGeometries_r(geos, joined) : 0;
-    for (int i = 0; i < parts && good; i++)
-        good = add_geos_line(geos, lines, height_m, GEOSGetGeometryN_r(geos, joined, i), snap_m);
+    bool good = joined != NULL && add_parts(geos, lines, height_m, joined, snap_m);
     if (joined != NULL)
         GEOSGeom_destroy_r(geos, joined);
     if (geos != NULL)

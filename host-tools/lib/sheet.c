@@ -214,10 +214,12 @@ static void write_figures(const page_t *page, const char *name)
     const yb_fidelity_t *fidelity = page->fidelity;
     char text[256];
     write_text(page, GAP, TITLE - 14, 20, name);
-    snprintf(text, sizeof(text),
-             "N = %u points   M = %u contours   F = %u bits   %zu bytes   K = %.3f",
-             (unsigned)fidelity->points, (unsigned)fidelity->contours,
-             (unsigned)fidelity->body_bits, fidelity->bytes, fidelity->k);
+    char code[64] = "no code";
+    if (fidelity->bytes > 0)
+        snprintf(code, sizeof(code), "F = %u bits   %zu bytes", (unsigned)fidelity->body_bits,
+                 fidelity->bytes);
+    snprintf(text, sizeof(text), "N = %u points   M = %u contours   %s   K = %.3f",
+             (unsigned)fidelity->points, (unsigned)fidelity->contours, code, fidelity->k);
     write_text(page, GAP, HEIGHT - FOOT + 20, 16, text);
     snprintf(text, sizeof(text),
              "smooth: RMSE %.1f m (%.3f of the relief's deviation)   with detail: RMSE %.1f m "

@@ -204,18 +204,126 @@ static uint16_t place_q8(double first_m, double cell_m, uint32_t index, double s
     return (uint16_t)fmin(fmax(at, 0), side_q8);
 }
 
+/* The places of one axis, and for every step the first of them at it or beyond. */
+typedef struct {
+    const uint16_t *at_q8;
+    uint32_t count;
+    uint32_t from[257];
+} axis_t;
+
+typedef struct {
+    axis_t across, up;
+    int32_t *z_q8;
+} sampler_t;
+
+static axis_t axis_of(const uint16_t *at_q8, uint32_t count)
+{
+    axis_t axis = {.at_q8 = at_q8, .count = count};
+    uint32_t i = 0;
+    for (uint32_t step = 0; step <= 256; step++) {
+        while (i < count && at_q8[i] < step * 256)
+            i++;
+        axis.from[step] = i;
+    }
+    return axis;
+}
+
+/* The places from `low` to `high`, both included. */
+static void places_in(const axis_t *axis, uint16_t low, uint16_t high, uint32_t *first,
+                      uint32_t *end)
+{
+    *first = axis->from[low >> 8];
+    while (*first < axis->count && axis->at_q8[*first] < low)
+        ++*first;
+    *end = axis->from[(high >> 8) + 1];
+    while (*end > *first && axis->at_q8[*end - 1] > high)
+        --*end;
+}
+
+static uint16_t least(uint16_t a, uint16_t b, uint16_t c)
+{
+    const uint16_t low = a < b ? a : b;
+    return low < c ? low : c;
+}
+
+static uint16_t greatest(uint16_t a, uint16_t b, uint16_t c)
+{
+    const uint16_t high = a > b ? a : b;
+    return high > c ? high : c;
+}
+
+/* Writes the heights of a triangle at the places in it, its border included: there its neighbours
+ * write the same. Rounded down, as the engine does.
+ */
+static void sample_triangle(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
+                            const yb_vertex_t *c)
+{
+    const sampler_t *sampler = context;
+    const int64_t bx = b->x_q8 - a->x_q8, by = b->y_q8 - a->y_q8;
+    const int64_t cx = c->x_q8 - a->x_q8, cy = c->y_q8 - a->y_q8;
+    const int64_t area = bx * cy - by * cx;
+    uint32_t first = 0, end = 0, row = 0, end_row = 0;
+    places_in(&sampler->across, least(a->x_q8, b->x_q8, c->x_q8),
+              greatest(a->x_q8, b->x_q8, c->x_q8), &first, &end);
+    places_in(&sampler->up, least(a->y_q8, b->y_q8, c->y_q8), greatest(a->y_q8, b->y_q8, c->y_q8),
+              &row, &end_row);
+    if (area <= 0)
+        return;
+    for (; row < end_row; row++) {
+        const int64_t y = sampler->up.at_q8[row] - a->y_q8;
+        for (uint32_t i = first; i < end; i++) {
+            const int64_t x = sampler->across.at_q8[i] - a->x_q8;
+            const int64_t of_b = x * cy - y * cx;
+            const int64_t of_c = bx * y - by * x;
+            if (of_b < 0 || of_c < 0 || of_b + of_c > area)
+                continue;
+            const int64_t rise = of_b * (b->z_q8 - a->z_q8) + of_c * (c->z_q8 - a->z_q8);
+            const int64_t down = rise >= 0 ? rise / area : -((area - 1 - rise) / area);
+            sampler->z_q8[(size_t)row * sampler->across.count + i] = (int32_t)(a->z_q8 + down);
+        }
+    }
+}
+
+void yb_map_heights(const yb_map_t *map, const uint16_t *x_q8, uint32_t columns,
+                    const uint16_t *y_q8, uint32_t rows, int32_t *z_q8)
+{
+    sampler_t sampler = {axis_of(x_q8, columns), axis_of(y_q8, rows), z_q8};
+    for (yb_triangle_t i = 0; i < map->triangle_count; i++)
+        yb_map_refine(map, i, YB_REFERENCE_Q8, sample_triangle, &sampler);
+}
+
+float *yb_map_heights_m(const yb_map_t *map, const uint16_t *x_q8, uint32_t columns,
+                        const uint16_t *y_q8, uint32_t rows)
+{
+    const size_t places = (size_t)columns * rows;
+    int32_t *z_q8 = malloc(places * sizeof(*z_q8));
+    float *z_m = malloc(places * sizeof(*z_m));
+    if (z_q8 != NULL && z_m != NULL) {
+        yb_map_heights(map, x_q8, columns, y_q8, rows, z_q8);
+        for (size_t i = 0; i < places; i++)
+            z_m[i] = (float)yb_map_z_m(map, z_q8[i]);
+    } else {
+        free(z_m);
+        z_m = NULL;
+    }
+    free(z_q8);
+    return z_m;
+}
+
 float *yb_raster_heights(const yb_map_t *map, const yb_raster_t *raster)
 {
     const double step_m = yb_map_cell_m(map);
-    float *z_m = malloc((size_t)raster->columns * raster->rows * sizeof(*z_m));
-    if (z_m == NULL)
-        return NULL;
-    for (uint32_t j = 0; j < raster->rows; j++) {
-        const uint16_t y = place_q8(raster->south_m, raster->cell_m, j, step_m, map->north_q8);
-        for (uint32_t i = 0; i < raster->columns; i++) {
-            const uint16_t x = place_q8(raster->west_m, raster->cell_m, i, step_m, map->east_q8);
-            z_m[(size_t)j * raster->columns + i] = (float)yb_map_z_m(map, yb_map_height(map, x, y));
-        }
+    uint16_t *x_q8 = malloc(raster->columns * sizeof(*x_q8));
+    uint16_t *y_q8 = malloc(raster->rows * sizeof(*y_q8));
+    float *z_m = NULL;
+    if (x_q8 != NULL && y_q8 != NULL) {
+        for (uint32_t i = 0; i < raster->columns; i++)
+            x_q8[i] = place_q8(raster->west_m, raster->cell_m, i, step_m, map->east_q8);
+        for (uint32_t j = 0; j < raster->rows; j++)
+            y_q8[j] = place_q8(raster->south_m, raster->cell_m, j, step_m, map->north_q8);
+        z_m = yb_map_heights_m(map, x_q8, raster->columns, y_q8, raster->rows);
     }
+    free(x_q8);
+    free(y_q8);
     return z_m;
 }

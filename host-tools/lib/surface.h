@@ -44,6 +44,16 @@ bool yb_mesh_from_lattice(yb_mesh_t *mesh, const float *z_m, uint32_t columns, u
 
 void yb_mesh_free(yb_mesh_t *mesh);
 
+/* Heights of the reference surface at all places (x_q8[i], y_q8[j]) of its frame, both rising:
+ * z_q8[j * columns + i]. Each is that of yb_map_height; all triangles are refined once.
+ */
+void yb_map_heights(const yb_map_t *map, const uint16_t *x_q8, uint32_t columns,
+                    const uint16_t *y_q8, uint32_t rows, int32_t *z_q8);
+
+/* The same as floats in metres above the datum, to be freed. NULL: no memory. */
+float *yb_map_heights_m(const yb_map_t *map, const uint16_t *x_q8, uint32_t columns,
+                        const uint16_t *y_q8, uint32_t rows);
+
 /* How a raster of `cells` cells along the longer side lies on a map. The map's lattice points are
  * centres of cells one step wide, so the raster covers half a step beyond the frame on every side;
  * heights there are the frame's.

@@ -364,6 +364,23 @@ static void reader_close(reader_t *reader)
         GDALClose(reader->dataset);
 }
 
+/* Where the frame lies, in the file's own projection or the local one. */
+static bool set_origin(const reader_t *reader, OGRSpatialReferenceH srs, yb_lines_t *lines)
+{
+    OGRSpatialReferenceH used = reader->local != NULL ? reader->local : srs;
+    lines->origin.west_m = reader->box[0];
+    lines->origin.south_m = reader->box[1];
+    char *wkt = NULL;
+    if (used != NULL && OSRExportToWkt(used, &wkt) == OGRERR_NONE) {
+        lines->origin.projection = malloc(strlen(wkt) + 1);
+        if (lines->origin.projection != NULL)
+            strcpy(lines->origin.projection, wkt);
+    }
+    bool good = wkt == NULL || lines->origin.projection != NULL;
+    CPLFree(wkt);
+    return good;
+}
+
 yb_lines_t *yb_lines_from_vector(const char *path, const char *field, const yb_window_t *window,
                                  yb_error_t *error)
 {
@@ -376,8 +393,9 @@ yb_lines_t *yb_lines_from_vector(const char *path, const char *field, const yb_w
     good = good && to_metres(&reader, srs, error) && choose_box(&reader, srs, window, error);
     if (good) {
         lines = yb_lines_new(reader.box[2] - reader.box[0], reader.box[3] - reader.box[1]);
-        good = lines != NULL ? cut_shapes(&reader, lines, error)
-                             : yb_error_set(error, "%s: out of memory", path);
+        good = lines != NULL && set_origin(&reader, srs, lines)
+                   ? cut_shapes(&reader, lines, error)
+                   : yb_error_set(error, "%s: out of memory", path);
     }
     reader_close(&reader);
     CPLPopErrorHandler();

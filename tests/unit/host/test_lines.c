@@ -147,6 +147,38 @@ static void test_pieces_are_joined(void **state)
     yb_lines_free(lines);
 }
 
+/* A saddle drawn as a cross, and a line that ends in the middle of another. */
+static void test_lines_of_a_height_that_touch(void **state)
+{
+    (void)state;
+    yb_error_t error;
+    const char *path = scratch_path("cross.geojson");
+    collection(
+        path, LINE("elev", "50", "[[0,600],[500,500],[600,0]]") "," LINE(
+                  "elev",
+                  "50", "[[1000,400],[500,500],[400,1000]]") "," LINE("elev", "70",
+                                                                      "[[0,800],[500,850],[1000,"
+                                                                      "900]]") "," LINE("elev",
+                                                                                        "70",
+                                                                                        "[[500,850]"
+                                                                                        ",[520,700]"
+                                                                                        "]"));
+    yb_lines_t *lines = read_lines(path, NULL, &error);
+    assert_non_null(lines);
+    assert_int_equal(lines->count, 3);
+    assert_int_equal(lines->dropped, 1);
+    for (int i = 0; i < 3; i++) {
+        const yb_line_t *line = &lines->line[i];
+        assert_int_equal(line->count, 3);
+        assert_true(on_frame(lines, line->place[0]) && on_frame(lines, line->place[2]));
+    }
+    /* They part without crossing, each on its side of the cross. */
+    const yb_place_t *place = lines->line[0].place;
+    bool south_west = place[0].x_m + place[0].y_m < 1000;
+    assert_true(south_west == (place[2].x_m + place[2].y_m < 1000));
+    yb_lines_free(lines);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -176,6 +208,7 @@ int main(void)
         cmocka_unit_test(test_circle),
         cmocka_unit_test(test_nested_squares),
         cmocka_unit_test(test_pieces_are_joined),
+        cmocka_unit_test(test_lines_of_a_height_that_touch),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, scratch_begin, scratch_end);

@@ -56,7 +56,7 @@ static void rasters_come_back(void **state)
         yb_error_t error = {""};
         double transform[6];
         float row[3];
-        if (!yb_geofile_write_raster(in_directory(names[i]), false, &raster, heights, &error))
+        if (!yb_geofile_write_raster(in_directory(names[i]), false, &raster, heights, NULL, &error))
             fail_msg("%s", error.text);
         GDALDatasetH dataset = GDALOpen(path, GA_ReadOnly);
         assert_non_null(dataset);
@@ -70,9 +70,9 @@ static void rasters_come_back(void **state)
         GDALClose(dataset);
         assert_int_equal(files_left(), 1);
         /* Nothing is overwritten unasked. */
-        assert_false(yb_geofile_write_raster(path, false, &raster, heights, &error));
+        assert_false(yb_geofile_write_raster(path, false, &raster, heights, NULL, &error));
         assert_non_null(strstr(error.text, "--force"));
-        assert_true(yb_geofile_write_raster(path, true, &raster, heights, &error));
+        assert_true(yb_geofile_write_raster(path, true, &raster, heights, NULL, &error));
         unlink(path);
     }
 }
@@ -87,7 +87,7 @@ static void lines_come_back(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         yb_error_t error = {""};
-        if (!yb_geofile_write_lines(in_directory(names[i]), false, &lines, &error))
+        if (!yb_geofile_write_lines(in_directory(names[i]), false, &lines, NULL, &error))
             fail_msg("%s", error.text);
         GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR, NULL, NULL, NULL);
         assert_non_null(dataset);
@@ -116,11 +116,12 @@ static void what_cannot_be_written_leaves_nothing(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof(rasters) / sizeof(rasters[0]); i++) {
         yb_error_t error = {""};
-        if (yb_geofile_write_raster(in_directory(rasters[i]), false, &raster, heights, &error))
+        if (yb_geofile_write_raster(in_directory(rasters[i]), false, &raster, heights, NULL,
+                                    &error))
             fail_msg("%s was written", path);
         assert_non_null(strstr(error.text, rasters[i]));
         assert_int_equal(files_left(), 0);
-        if (yb_geofile_write_lines(in_directory(vectors[i]), false, &lines, &error))
+        if (yb_geofile_write_lines(in_directory(vectors[i]), false, &lines, NULL, &error))
             fail_msg("%s was written", path);
         assert_non_null(strstr(error.text, vectors[i]));
         assert_int_equal(files_left(), 0);

@@ -84,6 +84,39 @@ static void rasters_lie_on_the_lattice(void **state)
     yb_code_file_free(file);
 }
 
+/* At every second 1/256 of a step near the vertices, and all over the map. */
+static void check_heights(const yb_map_t *map)
+{
+    enum {
+        PLACES = 301
+    };
+    static int32_t z_q8[PLACES * PLACES];
+    uint16_t x_q8[PLACES], y_q8[PLACES];
+    for (int part = 0; part < 4; part++) {
+        const yb_vertex_t *v = &map->vertex[map->vertex_count * part / 4];
+        for (int i = 0; i < PLACES; i++) {
+            const double all = (double)i / (PLACES - 1);
+            const int x = part == 0 ? (int)(map->east_q8 * all) : v->x_q8 + 2 * (i - 150);
+            const int y = part == 0 ? (int)(map->north_q8 * all) : v->y_q8 + 2 * (i - 150);
+            x_q8[i] = (uint16_t)fmin(fmax(x, 0), map->east_q8);
+            y_q8[i] = (uint16_t)fmin(fmax(y, 0), map->north_q8);
+        }
+        yb_map_heights(map, x_q8, PLACES, y_q8, PLACES, z_q8);
+        for (int i = 0; i < PLACES * PLACES; i += part == 0 ? 1 : 7)
+            assert_int_equal(z_q8[i], yb_map_height(map, x_q8[i % PLACES], y_q8[i / PLACES]));
+    }
+}
+
+static void many_heights_are_those_of_the_engine(void **state)
+{
+    (void)state;
+    yb_code_file_t *file[] = {code_hill(), code_eastern_hill(), code_rough_hill(), code_slope()};
+    for (int i = 0; i < 4; i++) {
+        check_heights(&file[i]->map);
+        yb_code_file_free(file[i]);
+    }
+}
+
 static void lattices_end_on_the_same_frame(void **state)
 {
     (void)state;
@@ -111,6 +144,7 @@ int main(void)
         cmocka_unit_test(corners_are_welded),
         cmocka_unit_test(heights_are_metres_above_the_datum),
         cmocka_unit_test(rasters_lie_on_the_lattice),
+        cmocka_unit_test(many_heights_are_those_of_the_engine),
         cmocka_unit_test(lattices_end_on_the_same_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

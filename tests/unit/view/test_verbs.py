@@ -1,6 +1,7 @@
 """The verbs that draw and measure, as a user runs them: files, exit codes, sentences."""
 
 import json
+import math
 import os
 import pathlib
 import struct
@@ -53,6 +54,11 @@ def fnv1a(data):
     for byte in data:
         value = (value ^ byte) * 16777619 & 0xFFFFFFFF
     return f"{value:08x}"
+
+
+def ring(x, y, radius, count):
+    turns = [2 * math.pi * (i % count) / count for i in range(count + 1)]
+    return [[x + radius * math.cos(turn), y + radius * math.sin(turn)] for turn in turns]
 
 
 class Verbs(unittest.TestCase):
@@ -157,6 +163,54 @@ class Verbs(unittest.TestCase):
         width, height = struct.unpack(">II", (self.room / "sheet.png").read_bytes()[16:24])
         self.assertGreater(width * height, 1000000)
         self.assertIn(b"K ", self.good("evaluate", self.map, self.room / "hill.tif"))
+
+    def write_lines(self, name, features):
+        """Contour lines in UTM zone 32 N, as GeoJSON: pairs of a height and its places."""
+        path = self.room / name
+        path.write_text(json.dumps({
+            "type": "FeatureCollection",
+            "crs": {"type": "name", "properties": {"name": "EPSG:32632"}},
+            "features": [{"type": "Feature", "properties": {"metres": height, "id": i},
+                          "geometry": {"type": "LineString", "coordinates": places}}
+                         for i, (height, places) in enumerate(features)]}))
+        return path
+
+    def write_hill(self):
+        features = [(100 * k, [[500000 + x, 5000000 + y] for x, y in
+                               ring(2000, 2000, 2000 - 180 * k, 400)]) for k in range(1, 10)]
+        return self.write_lines("hill.geojson", features)
+
+    def test_contour_lines_instead_of_a_code(self):
+        lines, field = self.write_hill(), ("--field", "metres")
+        said = json.loads(self.good("info", lines, *field, "--json"))
+        self.assertEqual((said["n"], said["m"]), (3600, 9))
+        self.assertNotIn("bytes", said)
+        self.assertIn(b"no code", self.good("info", lines, *field))
+        dem, again = self.room / "hill.tif", self.room / "again.gpkg"
+        self.good("dem", lines, *field, "-o", dem)
+        self.good("contours", lines, *field, "-o", again, "--interval", 60, "--base", 30)
+        # In its own place: the lines at both heights and the raster are of one window.
+        said = json.loads(self.good("evaluate", lines, dem, *field, "--json"))
+        self.assertLess(said["smooth"]["rmse_m"], 5)
+        self.assertGreater(said["k"], 0.95)
+        box = ("--window", 500500, 5000500, 503500, 5003500)
+        said = json.loads(self.good("evaluate", again, dem, *box, "--json"))
+        self.assertLess(said["smooth"]["rmse_m"], 5)
+        self.good("render", lines, *field, "-o", self.room / "hill.png", "--size", "64x48")
+        self.good("mesh", lines, *field, "-o", self.room / "hill.obj")
+
+    def test_contour_lines_that_cross(self):
+        lines = self.write_lines("cross.geojson", [
+            (100, [[0, 900], [2500, 900]]), (200, [[900, 0], [900, 2500]]),
+            (300, [[1000, 1000], [1000, 2000], [2000, 2000], [1000, 1000]])])
+        done = run("info", lines, "--field", "metres")
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count(b"\n"), 1)
+        self.assertIn(b"1 lines and 0 points of others are left out", done.stderr)
+        self.assertIn("--field", self.bad(1, "info", lines))
+        self.assertIn("is a code", self.bad(1, "info", self.map, "--field", "metres"))
+        self.assertIn("excl", self.bad(2, "dem", lines, "-o", self.room / "x.tif", "--window", 0, 0,
+                                       1, 1, "--center", 9, 46))
 
     def test_help_is_a_page(self):
         for verb in ("render", "dem", "contours", "mesh", "evaluate"):
