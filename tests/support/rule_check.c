@@ -353,6 +353,83 @@ static const char *check_fan(const scene_t *s, int r)
     return NULL;
 }
 
+/* Which line of region r leads to each other region: before[q] is a contour, or NONE. */
+static void look_beyond(const scene_t *s, int r, int before[MOST])
+{
+    int way[2][PLAN_MAX_CONTOURS];
+    for (int q = 0; q < s->regions; q++)
+        before[q] = NONE;
+    for (int i = 0; i < s->plan->contours; i++) {
+        way[0][i] = way[1][i] = NONE;
+        if (s->plan->contour[i].count > 1) {
+            int a, b;
+            plan_edge(s->plan, i, 0, &a, &b);
+            way[0][i] = s->region[s->left[a][b]];
+            way[1][i] = s->region[s->left[b][a]];
+        }
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int i = 0; i < 2 * s->plan->contours; i++) {
+            int from = way[i % 2][i / 2];
+            int to = way[1 - i % 2][i / 2];
+            if (from == NONE || to == r || before[to] != NONE ||
+                (from != r && before[from] == NONE))
+                continue;
+            before[to] = from == r ? i / 2 : before[from];
+            changed = true;
+        }
+    }
+}
+
+/* May a link down the slope go from p to q? The peak beyond other lines that is steepest from p
+ * must lie behind a line of q's height, and q be at most a quarter farther than the nearest such
+ * point.
+ */
+static bool may_link_down(const scene_t *s, int r, int p, int q)
+{
+    int before[MOST];
+    int64_t rise = 0;
+    int64_t run = 1;
+    bool right = false;
+    look_beyond(s, r, before);
+    for (int k = 0; k < s->load->first_saddle; k++) {
+        int line = is_spot(s, k) && region_of(s, k) != r ? before[region_of(s, k)] : NONE;
+        if (line == NONE || line == s->contour_of[p])
+            continue;
+        int32_t z = z_of(s, p);
+        int32_t h = z_of(s, s->plan->contour[line].first);
+        if (h == z || z_of(s, k) == h || (h > z) != (z_of(s, k) > h))
+            continue;
+        int64_t up = apart(z_of(s, k), z);
+        int64_t along = length_of(s, p, k);
+        if (up * run < rise * along)
+            continue;
+        right = h == z_of(s, q) || (right && up * run == rise * along);
+        rise = up;
+        run = along;
+    }
+    int shortest = INT32_MAX;
+    for (int k = 0; k < s->load->first_summit; k++) {
+        if (s->touches[r][k] && is_on_line(s, k) && z_of(s, k) == z_of(s, q) &&
+            length_of(s, p, k) < shortest)
+            shortest = length_of(s, p, k);
+    }
+    return right && length_of(s, p, q) <= shortest + shortest / 4;
+}
+
+static const char *check_slope(const scene_t *s, int t, int edge)
+{
+    int a = s->map->triangle[t][edge];
+    int b = s->map->triangle[t][(edge + 1) % 3];
+    if (yb_edge_rule(s->map, s->load, (yb_triangle_t)t, edge) != YB_RULE_SLOPE)
+        return NULL;
+    int r = s->region[t];
+    return may_link_down(s, r, a, b) || may_link_down(s, r, b, a)
+               ? NULL
+               : "a link that does not lead towards the steepest peak";
+}
+
 /* An edge of one height between two points that are both higher, or both lower. */
 static const char *check_dam(const scene_t *s, int t, int edge)
 {
@@ -436,6 +513,8 @@ const char *rule_check(const yb_map_t *map, const yb_load_t *load, const plan_t 
         wrong = check_edge(&s, t / 3, t % 3);
     for (int t = 0; t < 3 * (int)map->triangle_count && wrong == NULL; t++)
         wrong = check_dam(&s, t / 3, t % 3);
+    for (int t = 0; t < 3 * (int)map->triangle_count && wrong == NULL; t++)
+        wrong = check_slope(&s, t / 3, t % 3);
     for (int r = 0; r < s.regions && wrong == NULL; r++)
         wrong = check_fan(&s, r);
     return wrong;
