@@ -95,17 +95,12 @@ static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_i
     return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
 }
 
-/* The edges of the mesh in a fixed order, however its triangles are numbered. */
+/* An edge, in an order that does not depend on how the mesh is written down. */
 typedef struct {
     yb_index_t low, high;
     yb_triangle_t t;
     int edge;
 } bridge_t;
-
-static bool comes_before(const bridge_t *a, const bridge_t *b)
-{
-    return a->low < b->low || (a->low == b->low && a->high < b->high);
-}
 
 static bridge_t bridge_at(const yb_map_t *map, yb_triangle_t t, int i)
 {
@@ -114,23 +109,31 @@ static bridge_t bridge_at(const yb_map_t *map, yb_triangle_t t, int i)
     return (bridge_t){a < b ? a : b, a < b ? b : a, t, i};
 }
 
-/* Is the bridge, seen from its triangle's third corner, one where a branch begins? If so, *other is
- * the second point that it is reached from, or the new point m itself.
- */
-static bool begins_branch(const yb_map_t *map, const yb_load_t *load, const bridge_t *bridge,
-                          yb_index_t m, yb_index_t *other)
+static bool comes_before(const bridge_t *a, const bridge_t *b)
 {
-    int32_t h = map->vertex[bridge->low].z_q8;
-    yb_index_t p = map->triangle[bridge->t][prev3(bridge->edge)];
-    int32_t up = map->vertex[p].z_q8 - h;
-    if (p >= load->first_skeleton || up == 0 ||
-        neighbour_of(load, bridge->t, bridge->edge) == NO_TRIANGLE)
-        return false;
-    yb_index_t q = apex_across(map, load, bridge->t, bridge->edge);
-    int32_t up_q = map->vertex[q].z_q8 - h;
-    /* A point of another branch has no height of its own yet. */
-    *other = q >= load->first_skeleton || up_q != 0 ? q : m;
-    return up_q == 0 || (up > 0) == (up_q > 0); /* else the ground goes on falling */
+    return a->low < b->low || (a->low == b->low && a->high < b->high);
+}
+
+/* What the middle of edge i of t would be reached from, if a branch began there; *other is `none`
+ * if that is one point only. False: none begins.
+ */
+static bool begins_branch(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
+                          yb_index_t none, yb_index_t *parent, yb_index_t *other)
+{
+    int32_t h = map->vertex[map->triangle[t][i]].z_q8;
+    yb_index_t p = map->triangle[t][prev3(i)];
+    yb_index_t q = apex_across(map, load, t, i);
+    /* The lower number first; but flat ground last. */
+    bool swap = map->vertex[p].z_q8 == h || (q < p && map->vertex[q].z_q8 != h);
+    *parent = swap ? q : p;
+    *other = swap ? p : q;
+    int32_t up = map->vertex[*parent].z_q8 - h;
+    int32_t up_other = map->vertex[*other].z_q8 - h;
+    if (up_other == 0 && *other < load->first_skeleton)
+        *other = none;
+    /* Points of this stage still have their edge's height. Ground that goes on falling across the
+     * bridge needs no point on it. */
+    return up != 0 && (up_other == 0 || (up > 0) == (up_other > 0));
 }
 
 /* Branches begin at bridges that have a point of another height on one side, and on the other flat
@@ -143,34 +146,28 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
         for (;;) {
             yb_index_t v = (yb_index_t)low;
             yb_index_t m = (yb_index_t)map->vertex_count;
+            yb_index_t parent = m;
             yb_index_t other = m;
-            bridge_t next = {.high = v};
+            yb_index_t p = m;
+            yb_index_t q = m;
+            bridge_t next = {.high = m};
             yb_triangle_t first = first_at(map, load, v);
             for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-                /* Both edges at v: a bridge may be one of either of its triangles. */
-                for (int k = 0; k < 2; k++) {
-                    int i = k == 0 ? corner_of(map, t, v) : prev3(corner_of(map, t, v));
-                    bridge_t bridge = bridge_at(map, t, i);
-                    yb_index_t q = m;
-                    if (bridge.low == v && is_bridge(map, load, t, i) &&
-                        (next.high == v || bridge.high < next.high) &&
-                        begins_branch(map, load, &bridge, m, &q)) {
-                        next = bridge;
-                        other = q;
-                    }
+                bridge_t bridge = bridge_at(map, t, corner_of(map, t, v));
+                if (bridge.low == v && bridge.high < next.high &&
+                    is_bridge(map, load, t, bridge.edge) &&
+                    load->neighbour[t][bridge.edge] != NO_TRIANGLE &&
+                    begins_branch(map, load, t, bridge.edge, m, &p, &q)) {
+                    next = bridge;
+                    parent = p;
+                    other = q;
                 }
             }
-            if (next.high == v)
+            if (next.high == m)
                 break;
-            yb_index_t p = map->triangle[next.t][prev3(next.edge)];
-            if (other < p) { /* the bridge is one of either side: the same from both */
-                yb_index_t swap = p;
-                p = other;
-                other = swap;
-            }
-            if (split_bridge(map, load, next.t, next.edge, p, other) != YB_OK)
+            if (split_bridge(map, load, next.t, next.edge, parent, other) != YB_OK)
                 return YB_ERR_LIMIT;
-            load->branch[m].way = add_way(map, 0, steepness(map, load, m), p, m);
+            load->branch[m].way = add_way(map, 0, steepness(map, load, m), parent, m);
         }
     }
     return YB_OK;

@@ -42,7 +42,25 @@ static uint16_t cell_of(double longest_m)
     return coded;
 }
 
-/* The header that the map would have as a code. */
+/* What lies between the lowest line and the next one; of a single height, up to the highest spot,
+ * or else a metre.
+ */
+static double lowest_interval_m(const yb_lines_t *lines, double low_m)
+{
+    double line_m = HUGE_VAL;
+    double spot_m = low_m;
+    for (int i = 0; i < lines->count; i++) {
+        double height_m = lines->line[i].height_m;
+        if (lines->line[i].count > 1 && height_m > low_m)
+            line_m = fmin(line_m, height_m);
+        spot_m = fmax(spot_m, height_m);
+    }
+    return isfinite(line_m) ? line_m - low_m : spot_m > low_m ? spot_m - low_m : 1;
+}
+
+/* The header that the map would have as a code. Where no line meets the frame, it lies half an
+ * interval below the lowest one.
+ */
 static bool begin_map(builder_t *builder, yb_error_t *error)
 {
     const yb_lines_t *lines = builder->lines;
@@ -56,11 +74,14 @@ static bool begin_map(builder_t *builder, yb_error_t *error)
     yb_map_begin(map, builder->load);
     map->cell = cell_of(fmax(lines->width_m, lines->depth_m));
     map->unit = yb_paper_unit(1);
-    map->base_m = (int16_t)fmin(fmax(floor(low_m), INT16_MIN), INT16_MAX);
+    double interval_m = lowest_interval_m(lines, low_m);
+    map->base_m = (int16_t)fmin(fmax(floor(low_m - interval_m), INT16_MIN), INT16_MAX);
     map->smooth = true;
     map->detail = false;
     map->hurst_q8m1 = UINT8_MAX;
     builder->cell_m = yb_paper_metres(map->cell);
+    builder->load->frame_height =
+        (int32_t)lround((low_m - interval_m / 2 - map->base_m) / builder->cell_m * 256);
     map->east_q8 = (uint16_t)(lround(lines->width_m / builder->cell_m * GRAINS) * GRAIN_Q8);
     map->north_q8 = (uint16_t)(lround(lines->depth_m / builder->cell_m * GRAINS) * GRAIN_Q8);
     if (map->east_q8 < 256 || map->north_q8 < 256)
