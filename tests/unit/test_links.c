@@ -188,6 +188,19 @@ static void others_do_not_disturb_twins(void **state)
     assert_int_equal(saddle(0)->z_q8, 30 * 256);
 }
 
+/* Where there is no height between two lines there can be no pass between them. */
+static void twins_a_unit_above_their_parent(void **state)
+{
+    (void)state;
+    plan_t plan;
+    begin_twins(&plan);
+    plan.cell = 256; /* a unit of height is the smallest there is */
+    plan.unit = 1;
+    add_peak(&plan, 80, 128, 21, 40);
+    add_peak(&plan, 176, 128, 21, 40);
+    load_plan(&plan);
+}
+
 /* Round a square: three sides join four peaks, the fourth and the diagonals join nothing. */
 static void four_peaks_have_three_link_points(void **state)
 {
@@ -274,6 +287,7 @@ int main(void)
         cmocka_unit_test(others_are_no_twins),
         cmocka_unit_test(nearest_pairs_are_joined_first),
         cmocka_unit_test(others_do_not_disturb_twins),
+        cmocka_unit_test(twins_a_unit_above_their_parent),
         cmocka_unit_test(four_peaks_have_three_link_points),
         cmocka_unit_test(one_link_point_for_two_lines),
         cmocka_unit_test(bows_are_left_to_the_skeleton),
