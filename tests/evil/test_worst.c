@@ -273,19 +273,46 @@ static void some_summits_in_two_arms(plan_t *plan)
 }
 
 /* Rings of one height, the innermost first: each has to wait for the next one outside. */
-static void nest_of_one_height(plan_t *plan)
+static void nest(plan_t *plan, int rings, int points)
 {
     plan->shift = 3;
-    for (int i = 0; i < 28; i++) {
+    for (int i = 0; i < rings; i++) {
         int a = 123 - 4 * i;
         int b = 131 + 4 * i;
         const plan_point_t ring[] = {{a, a}, {b, a}, {b, b}, {a, b}};
         assert_true(plan_try(plan, ring, 4, 40));
     }
     rng_t rng = {96};
-    for (int tries = 0; tries < 5000 && plan->points < 160; tries++) {
+    for (int tries = 0; tries < 5000 && plan->points < points; tries++) {
         const plan_point_t p = {rng_range(&rng, 1, 254), rng_range(&rng, 248, 254)};
         (void)plan_try(plan, &p, 1, 50 + tries % 100);
+    }
+}
+
+static void nest_of_one_height(plan_t *plan)
+{
+    nest(plan, 24, 130);
+}
+
+static void larger_nest_of_one_height(plan_t *plan)
+{
+    nest(plan, 29, 200);
+}
+
+/* Rings of rising height with the spots in the innermost: every ring looks at all of them. */
+static void nest_round_summits(plan_t *plan)
+{
+    plan->shift = 3;
+    for (int i = 0; i < 20; i++) {
+        int a = 7 + 4 * i;
+        int b = 247 - 4 * i;
+        const plan_point_t ring[] = {{a, a}, {b, a}, {b, b}, {a, b}};
+        assert_true(plan_try(plan, ring, 4, 20 + i));
+    }
+    rng_t rng = {98};
+    for (int tries = 0; tries < 9000 && plan->points < 230; tries++) {
+        const plan_point_t p = {rng_range(&rng, 85, 169), rng_range(&rng, 85, 169)};
+        (void)plan_try(plan, &p, 1, 400 + tries % 300);
     }
 }
 
@@ -373,6 +400,8 @@ static void the_worst_legal_codes_are_loaded_in_time(void **state)
         {"60 summits in two arms", some_summits_in_two_arms},
         {"160 summits behind four lines", summits_by_the_dozen},
         {"a nest of one height", nest_of_one_height},
+        {"a larger nest of one height", larger_nest_of_one_height},
+        {"a nest round summits", nest_round_summits},
         {"a comb in a parent", comb_in_a_parent},
         {"a comb of 60 and a summit", comb_with_summit},
         {"a star", star_of_120},

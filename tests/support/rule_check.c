@@ -172,9 +172,9 @@ static const char *check_summit(const scene_t *s, int v)
     int off = apart(z_of(s, v), h);
     if (most == 0)
         return "a summit where nothing is of another height";
-    if (off == 0 || (8 * off < least && abs(z_of(s, v)) < YB_MAX_HEIGHT_Q8))
+    if (off == 0 || (off < least / 8 && abs(z_of(s, v)) < YB_MAX_HEIGHT_Q8))
         return "a summit less than an eighth of an interval off its line";
-    if (off >= most && most > 1)
+    if (off >= most && most >= 8)
         return "a summit an interval and more off its line";
     return NULL;
 }
@@ -295,6 +295,25 @@ static bool sees(const scene_t *s, int a, int b)
     return true;
 }
 
+/* Lengths as the rules have them (SPEC 3.1). */
+static int length_of(const scene_t *s, int a, int b)
+{
+    int dx = abs(s->map->vertex[a].x_q8 - s->map->vertex[b].x_q8);
+    int dy = abs(s->map->vertex[a].y_q8 - s->map->vertex[b].y_q8);
+    return dx > dy ? dx + 3 * dy / 8 : dy + 3 * dx / 8;
+}
+
+/* May a point of the same height stand across a ridge from point p, nearer than the summit? */
+static bool is_by_ridge(const scene_t *s, int r, int p, int summit)
+{
+    for (int q = 0; q < s->load->first_saddle; q++) {
+        if (q != p && s->touches[r][q] && z_of(s, p) == z_of(s, q) && !s->line[p][q] &&
+            length_of(s, p, q) < length_of(s, p, summit))
+            return true;
+    }
+    return false;
+}
+
 /* Where one line bounds a region that has one summit. */
 static const char *check_fan(const scene_t *s, int r)
 {
@@ -325,10 +344,90 @@ static const char *check_fan(const scene_t *s, int r)
             edge = s->map->triangle[t][i] == summit ? i : edge;
         bool linked =
             t != NONE && yb_edge_rule(s->map, s->load, (yb_triangle_t)t, edge) == YB_RULE_SUMMIT;
-        if (linked != sees(s, summit, p))
-            return linked ? "a fan through something" : "a point that is not linked to its summit";
+        bool seen = sees(s, summit, p);
+        if (linked && !seen)
+            return "a fan through something";
+        if (!linked && seen && !is_by_ridge(s, r, p, summit))
+            return "a point that is not linked to its summit";
     }
     return NULL;
+}
+
+/* Which line of region r leads to each other region: before[q] is a contour, or NONE. */
+static void look_beyond(const scene_t *s, int r, int before[MOST])
+{
+    int way[2][PLAN_MAX_CONTOURS];
+    for (int q = 0; q < s->regions; q++)
+        before[q] = NONE;
+    for (int i = 0; i < s->plan->contours; i++) {
+        way[0][i] = way[1][i] = NONE;
+        if (s->plan->contour[i].count > 1) {
+            int a, b;
+            plan_edge(s->plan, i, 0, &a, &b);
+            way[0][i] = s->region[s->left[a][b]];
+            way[1][i] = s->region[s->left[b][a]];
+        }
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int i = 0; i < 2 * s->plan->contours; i++) {
+            int from = way[i % 2][i / 2];
+            int to = way[1 - i % 2][i / 2];
+            if (from == NONE || to == r || before[to] != NONE ||
+                (from != r && before[from] == NONE))
+                continue;
+            before[to] = from == r ? i / 2 : before[from];
+            changed = true;
+        }
+    }
+}
+
+/* May a link down the slope go from p to q? The peak beyond other lines that is steepest from p
+ * must lie behind a line of q's height, and q be at most a quarter farther than the nearest such
+ * point.
+ */
+static bool may_link_down(const scene_t *s, int r, int p, int q)
+{
+    int before[MOST];
+    int64_t rise = 0;
+    int64_t run = 1;
+    bool right = false;
+    look_beyond(s, r, before);
+    for (int k = 0; k < s->load->first_saddle; k++) {
+        int line = is_spot(s, k) && region_of(s, k) != r ? before[region_of(s, k)] : NONE;
+        if (line == NONE || line == s->contour_of[p])
+            continue;
+        int32_t z = z_of(s, p);
+        int32_t h = z_of(s, s->plan->contour[line].first);
+        if (h == z || z_of(s, k) == h || (h > z) != (z_of(s, k) > h))
+            continue;
+        int64_t up = apart(z_of(s, k), z);
+        int64_t along = length_of(s, p, k);
+        if (up * run < rise * along)
+            continue;
+        right = h == z_of(s, q) || (right && up * run == rise * along);
+        rise = up;
+        run = along;
+    }
+    int shortest = INT32_MAX;
+    for (int k = 0; k < s->load->first_summit; k++) {
+        if (s->touches[r][k] && is_on_line(s, k) && z_of(s, k) == z_of(s, q) &&
+            length_of(s, p, k) < shortest)
+            shortest = length_of(s, p, k);
+    }
+    return right && length_of(s, p, q) <= shortest + shortest / 4;
+}
+
+static const char *check_slope(const scene_t *s, int t, int edge)
+{
+    int a = s->map->triangle[t][edge];
+    int b = s->map->triangle[t][(edge + 1) % 3];
+    if (yb_edge_rule(s->map, s->load, (yb_triangle_t)t, edge) != YB_RULE_SLOPE)
+        return NULL;
+    int r = s->region[t];
+    return may_link_down(s, r, a, b) || may_link_down(s, r, b, a)
+               ? NULL
+               : "a link that does not lead towards the steepest peak";
 }
 
 /* An edge of one height between two points that are both higher, or both lower. */
@@ -414,6 +513,8 @@ const char *rule_check(const yb_map_t *map, const yb_load_t *load, const plan_t 
         wrong = check_edge(&s, t / 3, t % 3);
     for (int t = 0; t < 3 * (int)map->triangle_count && wrong == NULL; t++)
         wrong = check_dam(&s, t / 3, t % 3);
+    for (int t = 0; t < 3 * (int)map->triangle_count && wrong == NULL; t++)
+        wrong = check_slope(&s, t / 3, t % 3);
     for (int r = 0; r < s.regions && wrong == NULL; r++)
         wrong = check_fan(&s, r);
     return wrong;

@@ -14,10 +14,10 @@ const char *rule_check_flats(const yb_map_t *map, const plan_t *plan);
 
 /* A summit only in a region of one height, one in each, off the line by an eighth of the rise
  * outside and less than one; saddles strictly between the heights that they are between; links from
- * what they may start at to what they may end at, of different heights; from the one
- * summit of a leaf to each point of its line that it sees; no edge left that dams a valley or cuts
- * a ridge between two points of one height; branches of skeletons monotonic, off the height of
- * their sides.
+ * what they may start at to what they may end at, of different heights, from the one summit of a
+ * leaf to each point of its line that it sees and no ridge keeps away, and down slopes towards the
+ * steepest peak; no edge left that dams a valley or cuts a ridge between two points of one height;
+ * branches of skeletons monotonic, off the height of their sides.
  */
 const char *rule_check(const yb_map_t *map, const yb_load_t *load, const plan_t *plan);
 

@@ -171,6 +171,36 @@ static void nearest_pairs_are_joined_first(void **state)
     assert_int_equal(links(5, load.first_saddle + 1, YB_RULE_SADDLE), 1);
 }
 
+/* Others that lie nearer but cannot be joined, for their summits go down, change nothing. */
+static void others_do_not_disturb_twins(void **state)
+{
+    (void)state;
+    plan_t plan;
+    begin(&plan);
+    const plan_point_t parent[] = {{24, 40}, {232, 40}, {232, 216}, {24, 216}};
+    add_line(&plan, parent, 4, 20);
+    add_peak(&plan, 80, 80, 40, 60);
+    add_peak(&plan, 176, 80, 40, 60);
+    add_peak(&plan, 112, 176, 60, 50);
+    add_peak(&plan, 144, 176, 60, 50);
+    load_plan(&plan);
+    assert_int_equal(saddles(), 1);
+    assert_int_equal(saddle(0)->z_q8, 30 * 256);
+}
+
+/* Where there is no height between two lines there can be no pass between them. */
+static void twins_a_unit_above_their_parent(void **state)
+{
+    (void)state;
+    plan_t plan;
+    begin_twins(&plan);
+    plan.cell = 256; /* a unit of height is the smallest there is */
+    plan.unit = 1;
+    add_peak(&plan, 80, 128, 21, 40);
+    add_peak(&plan, 176, 128, 21, 40);
+    load_plan(&plan);
+}
+
 /* Round a square: three sides join four peaks, the fourth and the diagonals join nothing. */
 static void four_peaks_have_three_link_points(void **state)
 {
@@ -228,7 +258,9 @@ static void bows_are_left_to_the_skeleton(void **state)
     CHECK(found > 0, "no saddle in the bow");
 }
 
-/* What the summit does not see stays without a link: round the corner of an L. */
+/* What the summit does not see stays without a link, round the corner of an L; and what stands by a
+ * ridge that is narrower than the summit is far: the two points at the corner.
+ */
 static void fans_do_not_cross_their_line(void **state)
 {
     (void)state;
@@ -239,9 +271,9 @@ static void fans_do_not_cross_their_line(void **state)
     add_line(&plan, ell, 6, 20);
     add_line(&plan, &spot, 1, 30);
     load_plan(&plan);
-    static const int seen[6] = {1, 0, 0, 1, 1, 1};
+    static const int linked[6] = {0, 0, 0, 0, 1, 1};
     for (int k = 0; k < 6; k++)
-        assert_int_equal(map_edge(&map, &load, k, 6) == YB_RULE_SUMMIT, seen[k]);
+        assert_int_equal(map_edge(&map, &load, k, 6) == YB_RULE_SUMMIT, linked[k]);
     assert_true(map.vertex_count > load.first_skeleton);
 }
 
@@ -254,6 +286,8 @@ int main(void)
         cmocka_unit_test(twins_without_summits_meet_half_way),
         cmocka_unit_test(others_are_no_twins),
         cmocka_unit_test(nearest_pairs_are_joined_first),
+        cmocka_unit_test(others_do_not_disturb_twins),
+        cmocka_unit_test(twins_a_unit_above_their_parent),
         cmocka_unit_test(four_peaks_have_three_link_points),
         cmocka_unit_test(one_link_point_for_two_lines),
         cmocka_unit_test(bows_are_left_to_the_skeleton),

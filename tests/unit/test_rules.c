@@ -8,6 +8,7 @@
 
 #include "check.h"
 #include "maps.h"
+#include "mesh.h"
 #include "mesh_check.h"
 #include "random_plan.h"
 #include "rule_check.h"
@@ -98,6 +99,97 @@ static void the_rest_is_delaunay_after_links(void **state)
         CHECK(wrong == NULL, "map %d: %s", (int)seed, wrong);
     }
     assert_true(taken > 3000);
+}
+
+/* Numbers the triangles and the regions anew and turns each triangle to another first corner: the
+ * same mesh, as another way of triangulating might have left it.
+ */
+static void shuffle(rng_t *rng)
+{
+    static yb_map_t was;
+    static yb_load_t had;
+    was = map;
+    had = load;
+    static int place[YB_MAX_TRIANGLES];
+    static int turned[YB_MAX_TRIANGLES];
+    int region[YB_MAX_CONTOURS + 1];
+    for (int t = 0; t < (int)map.triangle_count; t++) {
+        int k = rng_range(rng, 0, t);
+        place[t] = place[k];
+        place[k] = t;
+        turned[t] = rng_range(rng, 0, 2);
+    }
+    for (int r = 0; r < load.region_count; r++) {
+        int k = rng_range(rng, 0, r);
+        region[r] = region[k];
+        region[k] = r;
+    }
+    for (int t = 0; t < (int)map.triangle_count; t++) {
+        int to = place[t];
+        load.region[to] = (yb_triangle_t)region[had.region[t]];
+        for (int i = 0; i < 3; i++) {
+            int from = (i + turned[t]) % 3;
+            int across_it = had.neighbour[t][from] & NO_TRIANGLE;
+            int mark = had.neighbour[t][from] & ~NO_TRIANGLE;
+            int across_now = across_it == NO_TRIANGLE ? NO_TRIANGLE : place[across_it];
+            map.triangle[to][i] = was.triangle[t][from];
+            load.neighbour[to][i] = (yb_entry_t)(across_now | mark);
+        }
+    }
+    for (int v = 0; v < map.vertex_count; v++)
+        load.star[v] = (yb_triangle_t)place[had.star[v]];
+    for (int c = 0; c < load.contour_count + load.summit_count; c++) {
+        load.contour[c].left = (yb_index_t)region[had.contour[c].left];
+        load.contour[c].right = (yb_index_t)region[had.contour[c].right];
+    }
+}
+
+/* After each stage: what it makes must follow from the mesh alone, not from how it is written down.
+ */
+static bool apply_rules(rng_t *rng, bool shuffled, uint64_t hash[3])
+{
+    yb_status_t (*const stage[3])(yb_map_t *, yb_load_t *) = {summits_add, links_add, skeleton_add};
+    for (int k = 0; k < 3; k++) {
+        if (shuffled)
+            shuffle(rng);
+        *(k == 0   ? &load.first_summit
+          : k == 1 ? &load.first_saddle
+                   : &load.first_skeleton) = map.vertex_count;
+        if (stage[k](&map, &load) != YB_OK)
+            return false;
+        hash[k] = mesh_hash(&map);
+    }
+    return true;
+}
+
+static void numbers_of_triangles_do_not_matter(void **state)
+{
+    (void)state;
+    int wrongs = 0;
+    static const char *const name[3] = {"summits", "links", "skeletons"};
+    for (uint64_t seed = 0; seed < 3000; seed++) {
+        rng_t rng = {seed};
+        plan_t plan;
+        uint64_t hash[2][3] = {{0}};
+        bool good[2];
+        if (seed % 4 == 0)
+            random_plan(&plan, &rng);
+        else
+            random_mountain(&plan, &rng);
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(map_triangulate(&map, &load, &plan), YB_OK);
+            good[k] = apply_rules(&rng, k == 1, hash[k]);
+        }
+        CHECK(good[0] == good[1], "map %d", (int)seed);
+        for (int k = 0; k < 3; k++) {
+            if (hash[0][k] != hash[1][k]) {
+                if (wrongs++ < 20)
+                    print_error("map %d: other %s\n", (int)seed, name[k]);
+                break;
+            }
+        }
+    }
+    assert_int_equal(wrongs, 0);
 }
 
 /* Lines that may cross, touch and repeat points: refused if they do, else as good a map as any. */
@@ -229,6 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rules_hold_on_random_maps),
         cmocka_unit_test(the_rest_is_delaunay_after_links),
+        cmocka_unit_test(numbers_of_triangles_do_not_matter),
         cmocka_unit_test(messes_are_right_or_refused),
         cmocka_unit_test(bad_maps_by_hand),
         cmocka_unit_test(one_line_of_many_points),

@@ -50,8 +50,18 @@ static const yb_vertex_t *summit(int k)
     return &map.vertex[load.first_summit + k];
 }
 
-/* Half an interval above the line, or below it, where a triangle is all there is: half way from the
- * middle of its longest side to the corner opposite.
+/* How high a summit is above its line: that of a paraboloid which begins with the mean slope s
+ * outside: s times area over length of line; rounded down here and there.
+ */
+static void check_rise(int k, int line, double slope, double area, double length)
+{
+    int z = (int)((line + slope * area / length) * 256);
+    assert_in_range(summit(k)->z_q8, z - 6, z + 1);
+}
+
+/* The slope outside is small: an eighth of an interval above the line, or below it. Where a
+ * triangle is all there is the place is half way from the middle of its longest side to the corner
+ * opposite.
  */
 static void three_points_get_one_inside(void **state)
 {
@@ -63,7 +73,7 @@ static void three_points_get_one_inside(void **state)
         assert_true(plan_try(&plan, ring, 3, 20));
         load_plan(&plan);
         assert_int_equal(summits(), 1);
-        assert_int_equal(summit(0)->z_q8, (pit == 1 ? 15 : 25) * 256);
+        assert_int_equal(summit(0)->z_q8, 20 * 256 + (pit == 1 ? -1 : 1) * 10 * 256 / 8);
         /* Longest: from the third back to the first, 43 steps. */
         assert_int_equal(summit(0)->x_q8, (108 + 140) / 2 * 256);
         assert_int_equal(summit(0)->y_q8, (120 + 108) / 2 * 256);
@@ -76,8 +86,8 @@ static void three_points_get_one_inside(void **state)
     }
 }
 
-/* What counts is the ground next to the line, not the frame. */
-static void the_rise_is_half_an_interval(void **state)
+/* What counts is the ground next to the line, not the frame: up 24 over 40 or 56 steps. */
+static void the_rise_is_that_of_a_paraboloid(void **state)
 {
     (void)state;
     plan_t plan;
@@ -86,7 +96,7 @@ static void the_rise_is_half_an_interval(void **state)
     add_square(&plan, 80, 80, 64, 44);
     load_plan(&plan);
     assert_int_equal(summits(), 1);
-    assert_int_equal(summit(0)->z_q8, 56 * 256);
+    check_rise(0, 44, 24 / 48.0, 64 * 64, 4 * 64);
     assert_int_equal(summit(0)->x_q8, 112 * 256);
     assert_int_equal(summit(0)->y_q8, 112 * 256);
 }
@@ -130,7 +140,7 @@ static void a_spot_as_high_as_its_line_is_no_summit(void **state)
     add_spot(&plan, 100, 120, 20);
     load_plan(&plan);
     assert_int_equal(summits(), 1);
-    assert_int_equal(summit(0)->z_q8, 25 * 256);
+    check_rise(0, 20, 10 / ((80 + 80 + 111 + 111) / 4.0), 64 * 64, 4 * 64);
 }
 
 /* A ring between two lines of one height: the mean of what it does outside, by length of line. */
@@ -144,8 +154,10 @@ static void a_ring_of_one_height_gets_a_summit(void **state)
     add_spot(&plan, 100, 100, 100);
     load_plan(&plan);
     assert_int_equal(summits(), 1);
-    /* Up 30 over 480 steps of line, down 60 over 96: up all in all, and 35 on the mean. */
-    assert_int_equal(summit(0)->z_q8, 40 * 256 + (30 * 480 + 60 * 96) * 256 / 576 / 2);
+    /* Along 480 steps of line up 30 over 40 or 95 steps, along 96 down 60 over 12: up all in all.
+     */
+    check_rise(0, 40, (30.0 * 480 + 60 * 96) / (120 * (40 + 40 + 95 + 95) + 96 * 12),
+               120 * 120 - 24 * 24, 480 + 96);
 }
 
 /* The ring first, from the ground outside; then what it goes round, from the ring. */
@@ -158,7 +170,7 @@ static void a_crater_goes_down_again(void **state)
     add_square(&plan, 40, 40, 120, 40);
     load_plan(&plan);
     assert_int_equal(summits(), 2);
-    assert_int_equal(summit(0)->z_q8, 55 * 256);
+    check_rise(0, 40, 30.0 * 480 / (120 * (40 + 40 + 95 + 95)), 120 * 120 - 32 * 32, 480 + 128);
     assert_true(summit(1)->z_q8 < 40 * 256);
     assert_true(summit(1)->x_q8 > 80 * 256 && summit(1)->x_q8 < 112 * 256);
 }
@@ -184,7 +196,7 @@ static void a_line_round_the_whole_frame(void **state)
     assert_int_equal(summits(), 1);
     assert_int_equal(summit(0)->x_q8, 128 * 256);
     assert_int_equal(summit(0)->y_q8, 128 * 256);
-    assert_int_equal(summit(0)->z_q8, 15 * 256);
+    assert_int_equal(summit(0)->z_q8, 10 * 256 + 10 * 256 * 7 / 8); /* steep outside: no more */
 }
 
 /* Its corner has the line's height, so all of it has. */
@@ -233,7 +245,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(three_points_get_one_inside),
-        cmocka_unit_test(the_rise_is_half_an_interval),
+        cmocka_unit_test(the_rise_is_that_of_a_paraboloid),
         cmocka_unit_test(a_summit_of_its_own_is_enough),
         cmocka_unit_test(two_summits_share_a_leaf),
         cmocka_unit_test(a_spot_as_high_as_its_line_is_no_summit),
