@@ -68,3 +68,16 @@ bool is_flat(const yb_map_t *map, yb_triangle_t t)
     return map->vertex[v[0]].z_q8 == map->vertex[v[1]].z_q8 &&
            map->vertex[v[0]].z_q8 == map->vertex[v[2]].z_q8;
 }
+
+yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint16_t y_q8,
+                            int32_t z_q8)
+{
+    if (map->vertex_count >= load->vertices_promised)
+        return YB_ERR_LIMIT;
+    yb_vertex_t *v = &map->vertex[map->vertex_count];
+    v->x_q8 = x_q8;
+    v->y_q8 = y_q8;
+    v->z_q8 = z_q8;
+    map->vertex_count++;
+    return YB_OK;
+}

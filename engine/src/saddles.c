@@ -274,7 +274,8 @@ yb_status_t saddles_add(const place_t *place)
         int first = 0;
         while (!bounds(place, first) || first_of(place, first)->z_q8 != level.h)
             first++;
-        if (first == c && level.other != level.h && join_level(&level) != YB_OK)
+        bool has_between = fix_abs(level.h - level.other) >= 2;
+        if (first == c && has_between && join_level(&level) != YB_OK)
             return YB_ERR_LIMIT;
     }
     return YB_OK;

@@ -7,19 +7,6 @@
  */
 #include "mesh.h"
 
-yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint16_t y_q8,
-                            int32_t z_q8)
-{
-    if (map->vertex_count >= load->vertices_promised)
-        return YB_ERR_LIMIT;
-    yb_vertex_t *v = &map->vertex[map->vertex_count];
-    v->x_q8 = x_q8;
-    v->y_q8 = y_q8;
-    v->z_q8 = fix_clamp(z_q8, -YB_MAX_HEIGHT_Q8, YB_MAX_HEIGHT_Q8);
-    map->vertex_count++;
-    return YB_OK;
-}
-
 /* --- How high ------------------------------------------------------------------------------------
  */
 
@@ -245,7 +232,10 @@ yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
                 continue;
             int32_t h = map->vertex[contour->first].z_q8;
             spot_t spot = widest_place(map, load, region);
-            if (add_summit(map, load, &spot, h + rise_inside(map, load, region, h)) != YB_OK)
+            int32_t rise = rise_inside(map, load, region, h);
+            if (fix_abs(h + rise) > YB_MAX_HEIGHT_Q8)
+                rise = -rise;
+            if (add_summit(map, load, &spot, h + rise) != YB_OK)
                 return YB_ERR_LIMIT;
             load->scratch[region] = 0;
             changed = true;
