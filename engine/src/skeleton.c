@@ -115,14 +115,21 @@ static bool comes_before(const bridge_t *a, const bridge_t *b)
 }
 
 /* What the middle of edge i of t would be reached from, if a branch began there; *other is `none`
- * if that is one point only. False: none begins.
+ * if that is one point only. On the frame a bridge between two points of lines is met by its mirror
+ * image; the frame's own corners, at one height, bridge nothing. False: none begins.
  */
 static bool begins_branch(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
                           yb_index_t none, yb_index_t *parent, yb_index_t *other)
 {
-    int32_t h = map->vertex[map->triangle[t][i]].z_q8;
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    int32_t h = map->vertex[a].z_q8;
     yb_index_t p = map->triangle[t][prev3(i)];
-    yb_index_t q = apex_across(map, load, t, i);
+    yb_index_t q = p;
+    if (load->neighbour[t][i] != NO_TRIANGLE)
+        q = apex_across(map, load, t, i);
+    else if (a >= load->point_count || b >= load->point_count)
+        return false;
     /* The lower number first; but flat ground last. */
     bool swap = map->vertex[p].z_q8 == h || (q < p && map->vertex[q].z_q8 != h);
     *parent = swap ? q : p;
@@ -156,7 +163,6 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
                 bridge_t bridge = bridge_at(map, t, corner_of(map, t, v));
                 if (bridge.low == v && bridge.high < next.high &&
                     is_bridge(map, load, t, bridge.edge) &&
-                    load->neighbour[t][bridge.edge] != NO_TRIANGLE &&
                     begins_branch(map, load, t, bridge.edge, m, &p, &q)) {
                     next = bridge;
                     parent = p;
