@@ -42,6 +42,9 @@ static uint16_t cell_of(double longest_m)
     return coded;
 }
 
+/* Far more than the earth's circumference, far less than what a code can name. */
+static const double most_side_m = 1e8;
+
 /* The header that the map would have as a code. */
 static bool begin_map(builder_t *builder, yb_error_t *error)
 {
@@ -53,6 +56,9 @@ static bool begin_map(builder_t *builder, yb_error_t *error)
         low_m = fmin(low_m, lines->line[i].height_m);
         high_m = fmax(high_m, lines->line[i].height_m);
     }
+    if (!(lines->width_m < most_side_m && lines->depth_m < most_side_m))
+        return yb_error_set(error, "the lines' frame is %g m by %g m: more than the earth is round",
+                            lines->width_m, lines->depth_m);
     yb_map_begin(map, builder->load);
     map->cell = cell_of(fmax(lines->width_m, lines->depth_m));
     map->unit = yb_paper_unit(1);
