@@ -40,27 +40,26 @@ typedef struct {
 
 static int help(void)
 {
-    fputs(
-        "Usage: yamabiko contours MAP.yb -o OUT.geojson --interval M [OPTION ...]\n"
-        "\n"
-        "Writes contour lines of a map's reference surface: GeoJSON, or any format of OGR that\n"
-        "the file's ending names and that is a single file. Each line has its height in the\n"
-        "field `elevation`; it is closed or ends on the map's frame, and has the higher ground\n"
-        "on its left. Coordinates are metres from the frame's south-west corner, or those of\n"
-        "the contour lines that the map is made of; programs that take every GeoJSON for\n"
-        "degrees read the same lines rightly from a GeoPackage (.gpkg).\n"
-        "\n"
-        "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
-        "of GDAL: then the map has all their points, and no fractal detail.\n"
-        "\n"
-        "  -o, --output FILE   the lines; - is the standard output\n"
-        "  --interval M        height from one contour to the next, in metres\n"
-        "  --base M            a height that has a contour (default 0, the datum)\n"
-        "  --no-detail         of the smooth surface, without fractal detail\n"
-        "  --force             overwrite what exists\n"
-        "  --help              this text\n"
-        "\n",
-        stdout);
+    fputs("Usage: yamabiko contours MAP.yb -o OUT.geojson --interval M [OPTION ...]\n"
+          "\n"
+          "Writes contour lines of a map's reference surface: GeoJSON, or any format of OGR that\n"
+          "the file's ending names and that is a single file. Each line has its height in the\n"
+          "field `elevation`; it is closed or ends on the map's frame, and has the higher ground\n"
+          "on its left. Coordinates are metres from the frame's south-west corner, or those of\n"
+          "the contour lines that the map is made of; programs that take every GeoJSON for\n"
+          "degrees read the same lines rightly from a GeoPackage (.gpkg).\n"
+          "\n"
+          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+          "of GDAL: then the map has all their points, and no fractal detail.\n"
+          "\n"
+          "  -o, --output FILE   the lines; - is the standard output\n"
+          "  --interval M        height from one contour to the next, in metres\n"
+          "  --base M            a height that has a contour (default 0, the datum)\n"
+          "  --no-detail         of the smooth surface, without fractal detail\n"
+          "  --force             overwrite what exists\n"
+          "  --help              this text\n"
+          "\n",
+          stdout);
     fputs(cli_part_help, stdout);
     fputs("\n"
           "Examples:\n"

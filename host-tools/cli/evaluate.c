@@ -135,9 +135,8 @@ static void print_misfit(const char *name, const yb_misfit_t *misfit)
 static void print_fidelity(const yb_fidelity_t *fidelity)
 {
     if (fidelity->bytes > 0)
-        printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes,
-               (unsigned)fidelity->points, (unsigned)fidelity->contours,
-               (unsigned)fidelity->body_bits);
+        printf("bytes %zu   N %u   M %u   F %u bits\n", fidelity->bytes, (unsigned)fidelity->points,
+               (unsigned)fidelity->contours, (unsigned)fidelity->body_bits);
     else
         printf("no code: contour lines   N %u   M %u\n", (unsigned)fidelity->points,
                (unsigned)fidelity->contours);

@@ -42,11 +42,18 @@ static uint16_t cell_of(double longest_m)
     return coded;
 }
 
-/* What lies between the lowest line and the next one; of a single height, up to the highest spot,
- * or else a metre.
+/* Far more than the earth's circumference, far less than what a code can name. */
+static const double most_side_m = 1e8;
+
+/* Height of a frame that no line meets: half an interval below the lowest line. An interval is what
+ * lies between that and the next line, or, where there is none, the highest spot; or else a metre.
  */
-static double lowest_interval_m(const yb_lines_t *lines, double low_m)
+static double frame_height_m(const yb_lines_t *lines)
 {
+    double low_m = HUGE_VAL;
+    for (int i = 0; i < lines->count; i++)
+        if (lines->line[i].count > 1)
+            low_m = fmin(low_m, lines->line[i].height_m);
     double line_m = HUGE_VAL;
     double spot_m = low_m;
     for (int i = 0; i < lines->count; i++) {
@@ -55,12 +62,11 @@ static double lowest_interval_m(const yb_lines_t *lines, double low_m)
             line_m = fmin(line_m, height_m);
         spot_m = fmax(spot_m, height_m);
     }
-    return isfinite(line_m) ? line_m - low_m : spot_m > low_m ? spot_m - low_m : 1;
+    double next_m = isfinite(line_m) ? line_m : spot_m > low_m ? spot_m : low_m + 1;
+    return low_m - (next_m - low_m) / 2;
 }
 
-/* The header that the map would have as a code. Where no line meets the frame, it lies half an
- * interval below the lowest one.
- */
+/* The header that the map would have as a code. */
 static bool begin_map(builder_t *builder, yb_error_t *error)
 {
     const yb_lines_t *lines = builder->lines;
@@ -71,17 +77,20 @@ static bool begin_map(builder_t *builder, yb_error_t *error)
         low_m = fmin(low_m, lines->line[i].height_m);
         high_m = fmax(high_m, lines->line[i].height_m);
     }
+    if (!(lines->width_m < most_side_m && lines->depth_m < most_side_m))
+        return yb_error_set(error, "the lines' frame is %g m by %g m: more than the earth is round",
+                            lines->width_m, lines->depth_m);
     yb_map_begin(map, builder->load);
     map->cell = cell_of(fmax(lines->width_m, lines->depth_m));
     map->unit = yb_paper_unit(1);
-    double interval_m = lowest_interval_m(lines, low_m);
-    map->base_m = (int16_t)fmin(fmax(floor(low_m - interval_m), INT16_MIN), INT16_MAX);
+    double frame_m = frame_height_m(lines);
+    map->base_m = (int16_t)fmin(fmax(floor(fmin(low_m, frame_m)), INT16_MIN), INT16_MAX);
     map->smooth = true;
     map->detail = false;
     map->hurst_q8m1 = UINT8_MAX;
     builder->cell_m = yb_paper_metres(map->cell);
-    builder->load->frame_height =
-        (int32_t)lround((low_m - interval_m / 2 - map->base_m) / builder->cell_m * 256);
+    builder->load->frame_height = (int32_t)fmin(
+        fmax(lround((frame_m - map->base_m) / builder->cell_m * 256), 0), YB_MAX_HEIGHT_Q8);
     map->east_q8 = (uint16_t)(lround(lines->width_m / builder->cell_m * GRAINS) * GRAIN_Q8);
     map->north_q8 = (uint16_t)(lround(lines->depth_m / builder->cell_m * GRAINS) * GRAIN_Q8);
     if (map->east_q8 < 256 || map->north_q8 < 256)

@@ -28,6 +28,8 @@ enum {
 
 /* Ends of lines nearer to the frame than this share of its size are taken to lie on it. */
 static const double snap_share = 0.02;
+/* In metres, feet or degrees: beyond any place on earth. */
+static const double most_coordinate = 1e9;
 /* Room round lines that are all closed. */
 static const double margin_share = 0.06;
 
@@ -225,10 +227,14 @@ static bool cut_by_extent(const reader_t *reader)
 /* Brings all shapes to metres if their coordinates are not. */
 static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *error)
 {
-    if (yb_ground_in_metres(srs))
-        return true;
     double box[4] = {0};
     extent_of(reader, box);
+    for (int i = 0; i < 4; i++)
+        if (!(fabs(box[i]) < most_coordinate)) /* GDAL would turn round the earth for ever */
+            return yb_error_set(error, "the coordinates of %s reach %g: that is no place on earth",
+                                reader->path, box[i]);
+    if (yb_ground_in_metres(srs))
+        return true;
     reader->local = yb_ground_local(srs, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2);
     OGRCoordinateTransformationH transformation =
         reader->local != NULL ? OCTNewCoordinateTransformation(srs, reader->local) : NULL;

@@ -419,6 +419,11 @@ static void test_refused(void **state)
     add(10, false, PLACES({500, 0}, {510, 2}));
     assert_false(yb_detailed_map(given, &map, &load, NULL, NULL, &error));
     assert_non_null(strstr(error.text, "shorter side"));
+    yb_lines_free(given);
+    given = yb_lines_new(1000, 1e300);
+    add(10, false, PLACES({500, 0}, {500, 1e300}));
+    assert_false(yb_detailed_map(given, &map, &load, NULL, NULL, &error));
+    assert_non_null(strstr(error.text, "the earth"));
 }
 
 int main(void)

@@ -153,16 +153,15 @@ static void test_lines_of_a_height_that_touch(void **state)
     (void)state;
     yb_error_t error;
     const char *path = scratch_path("cross.geojson");
-    collection(
-        path, LINE("elev", "50", "[[0,600],[500,500],[600,0]]") "," LINE(
-                  "elev",
-                  "50", "[[1000,400],[500,500],[400,1000]]") "," LINE("elev", "70",
-                                                                      "[[0,800],[500,850],[1000,"
-                                                                      "900]]") "," LINE("elev",
-                                                                                        "70",
-                                                                                        "[[500,850]"
-                                                                                        ",[520,700]"
-                                                                                        "]"));
+    collection(path,
+               LINE("elev", "50", "[[0,600],[500,500],[600,0]]") "," LINE(
+                   "elev", "50",
+                   "[[1000,400],[500,500],[400,1000]]") "," LINE("elev", "70",
+                                                                 "[[0,800],[500,850],[1000,"
+                                                                 "900]]") "," LINE("elev", "70",
+                                                                                   "[[500,850]"
+                                                                                   ",[520,700]"
+                                                                                   "]"));
     yb_lines_t *lines = read_lines(path, NULL, &error);
     assert_non_null(lines);
     assert_int_equal(lines->count, 3);
@@ -196,6 +195,9 @@ static void test_refused(void **state)
     assert_non_null(strstr(error.text, "outside"));
     assert_null(read_lines(scratch_path("none.geojson"), NULL, &error));
     assert_non_null(strstr(error.text, "No such file"));
+    collection(path, LINE("elev", "5", "[[0,0],[1e300,1000]]"));
+    assert_null(read_lines(path, NULL, &error));
+    assert_non_null(strstr(error.text, "no place on earth"));
     scratch_text(path, "no lines");
     assert_null(read_lines(path, NULL, &error));
     assert_false(yb_lines_is_vector(path));
