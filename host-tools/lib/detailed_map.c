@@ -62,6 +62,8 @@ static double frame_height_m(const yb_lines_t *lines)
             line_m = fmin(line_m, height_m);
         spot_m = fmax(spot_m, height_m);
     }
+    if (!isfinite(low_m))
+        return lines->line[0].height_m; /* spot heights alone */
     double next_m = isfinite(line_m) ? line_m : spot_m > low_m ? spot_m : low_m + 1;
     return low_m - (next_m - low_m) / 2;
 }
@@ -89,8 +91,8 @@ static bool begin_map(builder_t *builder, yb_error_t *error)
     map->detail = false;
     map->hurst_q8m1 = UINT8_MAX;
     builder->cell_m = yb_paper_metres(map->cell);
-    builder->load->frame_height = (int32_t)fmin(
-        fmax(lround((frame_m - map->base_m) / builder->cell_m * 256), 0), YB_MAX_HEIGHT_Q8);
+    double frame_q8 = round((frame_m - map->base_m) / builder->cell_m * 256);
+    builder->load->frame_height = (int32_t)fmin(fmax(frame_q8, 0), YB_MAX_HEIGHT_Q8);
     map->east_q8 = (uint16_t)(lround(lines->width_m / builder->cell_m * GRAINS) * GRAIN_Q8);
     map->north_q8 = (uint16_t)(lround(lines->depth_m / builder->cell_m * GRAINS) * GRAIN_Q8);
     if (map->east_q8 < 256 || map->north_q8 < 256)
