@@ -150,6 +150,30 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
     map->vertex[v].gy_q11 = (int16_t)(gy > most ? most : gy < -most ? -most : gy);
 }
 
+/* Keeps the parabolas on the edges at v from overshooting: none may begin more than half as steep
+ * again as its chord, in the chord's direction (one up to twice as steep would still be monotone).
+ * Slopes are at most 2^13 and plan differences below 2^16: s is within 2^30, in 1/2048 height
+ * units; rises are within 2^18, so 1.5 · 2048 times that, and 15 bits, is below 2^45.
+ */
+static void limit_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
+{
+    yb_vertex_t *a = &map->vertex[v];
+    int32_t share_q15 = 1 << 15;
+    yb_triangle_t first = first_at(map, load, v);
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
+        for (int i = 0; i < 3; i++) {
+            const yb_vertex_t *b = &map->vertex[map->triangle[t][i]];
+            int32_t s = a->gx_q11 * (b->x_q8 - a->x_q8) + a->gy_q11 * (b->y_q8 - a->y_q8);
+            int32_t rise = b->z_q8 - a->z_q8;
+            int64_t most = (int64_t)fix_abs(rise) * 3072;
+            if (rise != 0 && (rise > 0) == (s > 0) && fix_abs(s) > most)
+                share_q15 = fix_min(share_q15, (int32_t)((most << 15) / fix_abs(s)));
+        }
+    }
+    a->gx_q11 = (int16_t)((a->gx_q11 * share_q15) >> 15);
+    a->gy_q11 = (int16_t)((a->gy_q11 * share_q15) >> 15);
+}
+
 /* log2, in 1/2048, of the square of an edge's length in steps; from its squared half length in
  * 1/256 steps: 4 / 2^16.
  */
@@ -244,6 +268,7 @@ void relief_prepare(yb_map_t *map, const yb_load_t *load)
         map->low_q8 = fix_min(map->low_q8, map->vertex[i].z_q8);
         map->high_q8 = fix_max(map->high_q8, map->vertex[i].z_q8);
         find_slope(map, load, (yb_index_t)i);
+        limit_slope(map, load, (yb_index_t)i);
     }
     int32_t hurst_q8 = map->hurst_q8m1 + 1;
     fill_tables(map, log2_amplitude(map, load, hurst_q8), hurst_q8);
