@@ -21,8 +21,7 @@ def sealed(data):
 def paper_code(contours, shift=2, side=255, cell=0x780, unit=0x280, seed=1, gain=32, frame=20,
                dimension=0x40):
     """contours: (height, [(x, y), ...]); differences between points are multiples of 2^shift."""
-    points = sum(len(line) for _, line in contours)
-    header = [0x20, shift, len(contours), points + 4, side, side, cell >> 8, cell & 255,
+    header = [0x20, shift, len(contours), 255, side, side, cell >> 8, cell & 255,
               unit >> 8, unit & 255, 0, 0, seed, gain, frame >> 8, frame & 255]
     counts = [len(line) for _, line in contours]
     bits = f"{dimension:08b}"
