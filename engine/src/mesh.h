@@ -88,23 +88,6 @@ YB_MUST_CHECK yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_ind
 /* Flips what is not marked until it is Delaunay. */
 void mesh_make_delaunay(yb_map_t *map, yb_load_t *load);
 
-/* A walk along the segment from vertex a to vertex b: the edges it crosses, in order. */
-typedef struct {
-    yb_index_t a, b;
-    yb_triangle_t t; /* the triangle the walk is in; it leaves by … */
-    int edge;        /* … this edge */
-} mesh_walk_t;
-
-typedef enum {
-    WALK_CROSSES, /* t and edge are set */
-    WALK_ENDS,    /* at b */
-    WALK_BLOCKED  /* it runs through another vertex */
-} mesh_step_t;
-
-mesh_step_t mesh_walk_begin(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
-                            mesh_walk_t *walk);
-mesh_step_t mesh_walk_on(const yb_map_t *map, const yb_load_t *load, mesh_walk_t *walk);
-
 /* Can ab become an edge? Not if a marked edge or a vertex is in its way. */
 bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b);
 

@@ -45,39 +45,49 @@ typedef struct {
     int32_t apart;
 } pair_t;
 
-/* Where the segment between two peaks leaves the line of the first and enters that of the second,
- * in 1/65536 of its length. False: something else is in between.
+/* Where edge pq crosses the segment ab, in 1/65536 of its length; -1: it does not. An end of pq
+ * that lies on ab counts as lying to the right of it. Areas are within 2^29: the quotient fits.
+ */
+static int32_t crossing(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t p, yb_index_t q)
+{
+    int32_t from = orientation(map, p, q, a);
+    int32_t to = orientation(map, p, q, b);
+    if ((from > 0) == (to > 0) ||
+        (orientation(map, a, b, p) > 0) == (orientation(map, a, b, q) > 0))
+        return -1;
+    return (int32_t)(((int64_t)from << 16) / ((int64_t)from - to));
+}
+
+/* Of all places between `after` and `before` at which the segment ab crosses a line, the first one,
+ * or the last; -1: there is none.
+ */
+static int32_t find_crossing(const place_t *place, int line, yb_index_t a, yb_index_t b,
+                             int32_t after, int32_t before, bool last)
+{
+    const yb_contour_t *c = &place->load->contour[line];
+    int32_t found = -1;
+    for (int k = c->open ? 1 : 0; k < c->count; k++) {
+        yb_index_t p = (yb_index_t)(c->first + (k == 0 ? c->count : k) - 1);
+        int32_t at = crossing(place->map, a, b, p, (yb_index_t)(c->first + k));
+        if (at > after && at < before && (found < 0 || (at > found) == last))
+            found = at;
+    }
+    return found;
+}
+
+/* Where the segment between two peaks leaves the line of the first for good and enters that of the
+ * second. False: another line is in between.
  */
 static bool find_gap(const place_t *place, yb_index_t a, yb_index_t b, int line_a, int line_b,
-                     uint32_t *leaves, uint32_t *enters)
+                     int32_t *leaves, int32_t *enters)
 {
-    const yb_load_t *load = place->load;
-    const yb_map_t *map = place->map;
-    bool inside = false; /* the region */
-    mesh_walk_t walk;
-    mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
-    for (; step == WALK_CROSSES; step = mesh_walk_on(map, load, &walk)) {
-        if (mark_of(load, walk.t, walk.edge) != YB_RULE_CONTOUR)
-            continue;
-        yb_index_t p = map->triangle[walk.t][walk.edge];
-        yb_index_t q = map->triangle[walk.t][next3(walk.edge)];
-        int64_t from = orientation(map, p, q, a);
-        int64_t to = orientation(map, p, q, b);
-        uint32_t at = (uint32_t)((from << 16) / (from - to));
-        if (!inside && load->region[neighbour_of(load, walk.t, walk.edge)] == place->region) {
-            inside = true;
-            *leaves = at;
-        } else if (inside) {
-            int line = load->scratch[load->region[neighbour_of(load, walk.t, walk.edge)]];
-            *enters = at;
-            if (line == line_b)
-                return true;
-            if (line != line_a)
-                return false;
-            inside = false;
-        }
+    *enters = find_crossing(place, line_b, a, b, -1, 65537, false);
+    *leaves = find_crossing(place, line_a, a, b, -1, *enters, true);
+    for (int c = 0; c < place->load->contour_count; c++) {
+        if (bounds(place, c) && find_crossing(place, c, a, b, *leaves, *enters, false) >= 0)
+            return false;
     }
-    return false;
+    return *leaves >= 0;
 }
 
 /* Links m to the nearest point of a line that it sees. */
@@ -153,8 +163,8 @@ static yb_status_t join(const level_t *level, const pair_t *pair, bool *joined)
     int line_b = line_before(place, pair->b);
     const yb_vertex_t *a = first_of(place, pair->a);
     const yb_vertex_t *b = first_of(place, pair->b);
-    uint32_t leaves = 0;
-    uint32_t enters = 0;
+    int32_t leaves = 0;
+    int32_t enters = 0;
     *joined = false;
     if (!find_gap(place, load->contour[pair->a].first, load->contour[pair->b].first, line_a, line_b,
                   &leaves, &enters))

@@ -329,40 +329,24 @@ yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_ind
     }
 }
 
-mesh_step_t mesh_walk_begin(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b,
-                            mesh_walk_t *walk)
-{
-    bool is_edge = false;
-    walk->a = a;
-    walk->b = b;
-    walk->t = towards(map, load, a, b, &is_edge);
-    if (walk->t == NO_TRIANGLE)
-        return WALK_BLOCKED;
-    walk->edge = next3(corner_of(map, walk->t, a));
-    return is_edge ? WALK_ENDS : WALK_CROSSES;
-}
-
-mesh_step_t mesh_walk_on(const yb_map_t *map, const yb_load_t *load, mesh_walk_t *walk)
-{
-    int corner = 0;
-    yb_triangle_t u = across(map, load, walk->t, walk->edge, &corner);
-    yb_index_t apex = map->triangle[u][corner];
-    walk->t = u;
-    if (apex == walk->b)
-        return WALK_ENDS;
-    int32_t side = orientation(map, walk->a, walk->b, apex);
-    /* u = (left, right, apex): on through right-apex or apex-left. */
-    walk->edge = side > 0 ? prev3(corner) : corner;
-    return side == 0 ? WALK_BLOCKED : WALK_CROSSES;
-}
-
 bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b)
 {
-    mesh_walk_t walk;
-    mesh_step_t step = mesh_walk_begin(map, load, a, b, &walk);
-    while (step == WALK_CROSSES && mark_of(load, walk.t, walk.edge) == YB_RULE_NONE)
-        step = mesh_walk_on(map, load, &walk);
-    return step == WALK_ENDS;
+    bool is_edge = false;
+    yb_triangle_t t = towards(map, load, a, b, &is_edge);
+    if (t == NO_TRIANGLE || is_edge)
+        return is_edge;
+    int edge = next3(corner_of(map, t, a));
+    while (mark_of(load, t, edge) == YB_RULE_NONE) {
+        int corner = 0;
+        t = across(map, load, t, edge, &corner);
+        yb_index_t apex = map->triangle[t][corner];
+        int32_t side = orientation(map, a, b, apex);
+        if (apex == b || side == 0)
+            return apex == b;
+        /* t = (left, right, apex): on through right-apex or apex-left. */
+        edge = side > 0 ? prev3(corner) : corner;
+    }
+    return false;
 }
 
 static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
