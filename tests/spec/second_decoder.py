@@ -740,10 +740,8 @@ class Skeletons:
                 and ((a, b) in mesh.apex or (b, a) in mesh.apex))
 
     def bridges(self, edges):
-        """In order; of those on the frame only those between two points of contours."""
-        points = len(self.mesh.plan.points)
-        return [e for e in sorted(key(*e) for e in edges)
-                if self.is_bridge(*e) and (self.mesh.inner(*e) or max(e) < points)]
+        """In order."""
+        return [e for e in sorted(key(*e) for e in edges) if self.is_bridge(*e)]
 
     def thirds(self, a, b):
         apex = self.mesh.apex
@@ -773,8 +771,10 @@ class Skeletons:
         return min(max(slope, 1), 1 << 14)
 
     def begin(self):
-        mesh = self.mesh
+        mesh, points = self.mesh, len(self.mesh.plan.points)
         for a, b in self.bridges(mesh.edges()):
+            if not mesh.inner(a, b) and (b >= points or (a, b) not in mesh.apex):
+                continue
             h = mesh.z[a]
             p, q = self.thirds(a, b)
 
