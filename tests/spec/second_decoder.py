@@ -766,7 +766,7 @@ class Skeletons:
         mesh = self.mesh
         rise = mesh.z[p] - h
         steep = [256 * abs(mesh.z[q] - mesh.z[p]) // mesh.length(p, q) for q in mesh.round(p)
-                 if q < self.old and (mesh.z[q] - mesh.z[p]) * rise > 0]
+                 if (p, q) in mesh.apex and q < self.old and (mesh.z[q] - mesh.z[p]) * rise > 0]
         slope = max(steep) if steep else 256 * abs(rise) // mesh.length(p, m)
         return min(max(slope, 1), 1 << 14)
 
