@@ -93,8 +93,10 @@ def read_header(read):
     plan.gain = read.number(1)
     plan.corner = [height_q8(plan, read.number(2)) if flags & 0x80 >> k else None for k in range(4)]
     plan.frame = None if flags & 0xF0 else height_q8(plan, read.number(2))
-    plan.counts = [read.number(1) for _ in range(contours)]
-    refuse_if(0 in plan.counts or sum(plan.counts) > plan.most_vertices)
+    plan.counts = []
+    for _ in range(contours):
+        plan.counts.append(read.number(1))
+        refuse_if(plan.counts[-1] == 0 or sum(plan.counts) > plan.most_vertices)
     return plan
 
 
@@ -876,7 +878,7 @@ def find_slopes(mesh):
     """2.7: (g_x, g_y) of each vertex."""
     sums = [[0, 0, 0] for _ in mesh.place]
     for corner in mesh.triangles():
-        (xa, ya), (xb, yb), (xc, yc) = ([c // 64 for c in mesh.place[v]] for v in corner)
+        (xa, ya), (xb, yb), (xc, yc) = ([c // 32 for c in mesh.place[v]] for v in corner)
         za, zb, zc = (mesh.z[v] for v in corner)
         if za == zb == zc:
             continue
@@ -886,7 +888,7 @@ def find_slopes(mesh):
         for v in corner:
             for k in range(3):
                 sums[v][k] += normal[k]
-    return [tuple(min(max(-32 * n // up, -8192), 8192) for n in (east, north)) if up else (0, 0)
+    return [tuple(min(max(-64 * n // up, -8192), 8192) for n in (east, north)) if up else (0, 0)
             for east, north, up in sums]
 
 
