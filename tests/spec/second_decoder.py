@@ -607,16 +607,13 @@ def link_point(mesh, region, a, b, line_a, line_b, h, o):
 
 
 def may_link_at(mesh, place, line_a, line_b):
-    """In a triangle, or on a free edge of one, that has a vertex of either line?"""
-    near = set(line_a.points()) | set(line_b.points())
+    """In a triangle, or on a free edge of one, that has a vertex of each of the two lines?"""
     (a, b, c), sides = mesh.find(place)
     zero = [e for e, side in zip(((a, b), (b, c), (c, a)), sides) if side == 0]
     if len(zero) == 2 or any(not mesh.free(*e) or not mesh.inner(*e) for e in zero):
         return False
-    corners = {a, b, c}
-    for p, q in zero:
-        corners.add(mesh.apex[q, p])
-    return bool(corners & near)
+    triangles = [{a, b, c}] + [{p, q, mesh.apex[q, p]} for p, q in zero]
+    return any(t & set(line_a.points()) and t & set(line_b.points()) for t in triangles)
 
 
 def add_link_points(mesh, region_of):
