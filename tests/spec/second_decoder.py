@@ -136,7 +136,8 @@ def read_code(code):
     plan = read_header(read)
     read_body(read, plan)
     read.number(1)
-    refuse_if(read.at != len(code) or crc8(code) != 0)
+    refuse_if(crc8(code[: read.at]) != 0)
+    plan.bytes = read.at
     return plan
 
 
@@ -324,8 +325,7 @@ class Mesh:
     def sees(self, a, b):
         """2.3"""
         p, q = self.place[a], self.place[b]
-        return (self.free(a, b)
-                and not any(turn(p, q, r) == 0 and between(p, q, r) for r in self.place)
+        return (not any(turn(p, q, r) == 0 and between(p, q, r) for r in self.place)
                 and not any(cross(p, q, self.place[c], self.place[d]) for c, d in self.marked))
 
 
@@ -766,7 +766,7 @@ class Skeletons:
         rise = mesh.z[p] - h
         steep = [256 * abs(mesh.z[q] - mesh.z[p]) // mesh.length(p, q) for q in mesh.round(p)
                  if (p, q) in mesh.apex and q < self.old and (mesh.z[q] - mesh.z[p]) * rise > 0]
-        slope = max(steep) if steep else 256 * abs(rise) // mesh.length(p, m)
+        slope = max(steep, default=0) or 256 * abs(rise) // mesh.length(p, m)
         return min(max(slope, 1), 1 << 14)
 
     def begin(self):
@@ -1036,4 +1036,5 @@ def decode(code):
     add_summits(mesh)
     add_links(mesh)
     Skeletons(mesh)
+    refuse_if(plan.bytes < len(code))
     return Map(plan, mesh)
