@@ -561,9 +561,9 @@ def spots_behind(region, line):
 def walk(mesh, region, a, b, line_a, line_b):
     """Where the segment ab comes into the region and leaves it: (t_a, t_b), or None."""
     p, q = mesh.place[a], mesh.place[b]
-    if any(turn(p, q, r) == 0 and between(p, q, r) for r in mesh.place):
-        return None
-    met = []
+    axis = 0 if p[0] != q[0] else 1
+    met = [(Fraction(r[axis] - p[axis], q[axis] - p[axis]), None) for r in mesh.place
+           if turn(p, q, r) == 0 and between(p, q, r)]
     for line in region.lines():
         for c, d in line.segments():
             r, s = mesh.place[c], mesh.place[d]
