@@ -75,11 +75,13 @@ static uint32_t steepness(const yb_map_t *map, const yb_load_t *load, yb_index_t
     int64_t slope = 0;
     yb_triangle_t first = first_at(map, load, p);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
-        yb_index_t q = map->triangle[t][next3(corner_of(map, t, p))];
-        int32_t on = map->vertex[q].z_q8 - map->vertex[p].z_q8;
-        if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
-            int64_t steep = ((int64_t)fix_abs(on) << 8) / edge_length(map, p, q);
-            slope = steep > slope ? steep : slope;
+        for (int i = 0; i < 3; i++) {
+            yb_index_t q = map->triangle[t][i];
+            int32_t on = map->vertex[q].z_q8 - map->vertex[p].z_q8;
+            if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
+                int64_t steep = ((int64_t)fix_abs(on) << 8) / edge_length(map, p, q);
+                slope = steep > slope ? steep : slope;
+            }
         }
     }
     if (slope == 0)
@@ -160,13 +162,18 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
             bridge_t next = {.high = m};
             yb_triangle_t first = first_at(map, load, v);
             for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-                bridge_t bridge = bridge_at(map, t, corner_of(map, t, v));
-                if (bridge.low == v && bridge.high < next.high &&
-                    is_bridge(map, load, t, bridge.edge) &&
-                    begins_branch(map, load, t, bridge.edge, m, &p, &q)) {
-                    next = bridge;
-                    parent = p;
-                    other = q;
+                /* Each edge once: of the one before v only if no other triangle has it. */
+                int at = corner_of(map, t, v);
+                bool ends = load->neighbour[t][prev3(at)] == NO_TRIANGLE;
+                for (int i = 0; i < (ends ? 2 : 1); i++) {
+                    bridge_t bridge = bridge_at(map, t, i == 0 ? at : prev3(at));
+                    if (bridge.low == v && bridge.high < next.high &&
+                        is_bridge(map, load, t, bridge.edge) &&
+                        begins_branch(map, load, t, bridge.edge, m, &p, &q)) {
+                        next = bridge;
+                        parent = p;
+                        other = q;
+                    }
                 }
             }
             if (next.high == m)
