@@ -145,40 +145,44 @@ static bool begins_branch(const yb_map_t *map, const yb_load_t *load, yb_triangl
     return up != 0 && (up_other == 0 || (up > 0) == (up_other > 0));
 }
 
+/* The bridge from v to the lowest higher number at which a branch begins, and what from. */
+static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next,
+                           yb_index_t *parent, yb_index_t *other)
+{
+    const yb_index_t none = (yb_index_t)map->vertex_count;
+    next->high = none;
+    yb_triangle_t first = first_at(map, load, v);
+    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
+        for (int k = 0; k < 2; k++) {
+            int at = corner_of(map, t, v);
+            bridge_t bridge = bridge_at(map, t, k == 0 ? at : prev3(at));
+            yb_index_t p = none;
+            yb_index_t q = none;
+            if (bridge.low == v && bridge.high < next->high &&
+                is_bridge(map, load, t, bridge.edge) &&
+                begins_branch(map, load, t, bridge.edge, none, &p, &q)) {
+                *next = bridge;
+                *parent = p;
+                *other = q;
+            }
+        }
+    }
+    return next->high != none;
+}
+
 /* Branches begin at bridges that have a point of another height on one side, and on the other flat
  * ground, or another such point: then a bridge is all there is. In the order of their ends'
  * numbers.
  */
 static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 {
-    for (int low = 0; low < load->first_skeleton; low++) {
-        for (;;) {
-            yb_index_t v = (yb_index_t)low;
+    for (int v = 0; v < load->first_skeleton; v++) {
+        bridge_t bridge = {0};
+        yb_index_t parent = 0;
+        yb_index_t other = 0;
+        while (find_beginning(map, load, (yb_index_t)v, &bridge, &parent, &other)) {
             yb_index_t m = (yb_index_t)map->vertex_count;
-            yb_index_t parent = m;
-            yb_index_t other = m;
-            yb_index_t p = m;
-            yb_index_t q = m;
-            bridge_t next = {.high = m};
-            yb_triangle_t first = first_at(map, load, v);
-            for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-                /* Each edge once: of the one before v only if no other triangle has it. */
-                int at = corner_of(map, t, v);
-                bool ends = load->neighbour[t][prev3(at)] == NO_TRIANGLE;
-                for (int i = 0; i < (ends ? 2 : 1); i++) {
-                    bridge_t bridge = bridge_at(map, t, i == 0 ? at : prev3(at));
-                    if (bridge.low == v && bridge.high < next.high &&
-                        is_bridge(map, load, t, bridge.edge) &&
-                        begins_branch(map, load, t, bridge.edge, m, &p, &q)) {
-                        next = bridge;
-                        parent = p;
-                        other = q;
-                    }
-                }
-            }
-            if (next.high == m)
-                break;
-            if (split_bridge(map, load, next.t, next.edge, parent, other) != YB_OK)
+            if (split_bridge(map, load, bridge.t, bridge.edge, parent, other) != YB_OK)
                 return YB_ERR_LIMIT;
             load->branch[m].way = add_way(map, 0, steepness(map, load, m), parent, m);
         }
