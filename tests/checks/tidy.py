@@ -48,7 +48,9 @@ def look(build, entry, rules):
 def main(build, folder):
     root = pathlib.Path(__file__).resolve().parents[2]
     database = json.loads((build / "compile_commands.json").read_text())
-    entries = [e for e in database if (root / folder) in pathlib.Path(e["file"]).parents]
+    # A file that is compiled more than once (the engine, for two limits) is looked at as it is first.
+    first = {e["file"]: e for e in reversed(database)}
+    entries = [e for e in first.values() if (root / folder) in pathlib.Path(e["file"]).parents]
     if not entries and any((root / folder).rglob("*.c")):
         print(f"tidy.py: {build} compiles nothing of {folder}", file=sys.stderr)
         return 1
