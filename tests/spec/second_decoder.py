@@ -76,21 +76,12 @@ def read_header(read):
     """1.1"""
     plan = Plan()
     refuse_if(read.number(1) != 0x20, "version")
-    flags = read.number(1)
-    refuse_if(flags & 8)
+    flags, contours, plan.most_vertices, plan.east, plan.north = (read.number(1) for _ in range(5))
+    cell, unit, _, plan.seed, plan.gain = (read.number(n) for n in (2, 2, 2, 1, 1))
+    refuse_if(flags & 8 or plan.most_vertices < 4 or plan.east == 0 or plan.north == 0)
+    plan.cell, plan.unit = unit_64th(cell), unit_64th(unit)
     plan.smooth = not flags & 4
     plan.shift = flags & 3
-    contours = read.number(1)
-    plan.most_vertices = read.number(1)
-    refuse_if(plan.most_vertices < 4)
-    plan.east = read.number(1)
-    plan.north = read.number(1)
-    refuse_if(plan.east == 0 or plan.north == 0)
-    plan.cell = unit_64th(read.number(2))
-    plan.unit = unit_64th(read.number(2))
-    read.number(2)
-    plan.seed = read.number(1)
-    plan.gain = read.number(1)
     plan.corner = [height_q8(plan, read.number(2)) if flags & 0x80 >> k else None for k in range(4)]
     plan.frame = None if flags & 0xF0 else height_q8(plan, read.number(2))
     plan.counts = []
@@ -422,24 +413,26 @@ class Region:
 
 def find_regions(mesh):
     """In their order, each with its lines and the spot heights in it (2.3)."""
-    lines = [c for c in mesh.contours if c.count > 1]
-    segments = {key(a, b) for line in lines for a, b in line.segments()}
+    segments = {key(a, b) for contour in mesh.contours for a, b in contour.segments()}
     regions = []
-    for line in lines:
-        for side in (0, 1):
-            a, b = line.segments()[0]
-            seed = (b, a) if side else (a, b)
-            region = next((r for r in regions if seed in r.edges), None)
-            if region is None:
-                region = Region(mesh, seed, segments)
-                regions.append(region)
-            region.sides.append((line, side))
-    for region in regions:
-        for line in region.lines():
-            region.across[line] = next(r for r in regions
-                                       if r is not region and line in r.lines())
-        inside = set(region.vertices)
-        region.spots = [c.first for c in mesh.contours if c.count == 1 and c.first in inside]
+
+    def region_of(seed):
+        region = next((r for r in regions if seed in r.edges), None)
+        if region is None:
+            region = Region(mesh, seed, segments)
+            regions.append(region)
+        return region
+
+    for contour in mesh.contours:
+        if contour.count == 1:
+            seed = next(e for e in mesh.apex if e[0] == contour.first)
+            region_of(seed).spots.append(contour.first)
+            continue
+        a, b = contour.segments()[0]
+        left, right = region_of((a, b)), region_of((b, a))
+        left.sides.append((contour, 0))
+        right.sides.append((contour, 1))
+        left.across[contour], right.across[contour] = right, left
     return regions
 
 
@@ -702,6 +695,8 @@ def off_segment(mesh, p, v, q):
 def add_links(mesh):
     """2.5"""
     for k, region in enumerate(find_regions(mesh)):
+        if not region.sides:
+            continue
         if len(region.sides) == 1:
             link_fan(mesh, find_regions(mesh)[k])
         else:
