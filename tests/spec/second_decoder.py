@@ -492,11 +492,14 @@ def summit_place(mesh, region):
 
 def add_summits(mesh):
     """2.4"""
+    looks = [(c, side) for c in mesh.contours for side in ((0, 1) if c.count > 1 else (0,))]
+    regions = find_regions(mesh)
     changed = True
     while changed:
         changed = False
-        for k in range(len(find_regions(mesh))):
-            region = find_regions(mesh)[k]
+        for contour, side in looks:
+            region = next(r for r in regions
+                          if (contour, side) in r.sides or contour.first in r.spots)
             if len({mesh.z[v] for v in region.vertices}) > 1:
                 continue
             rise = rise_of(mesh, region)
@@ -508,6 +511,7 @@ def add_summits(mesh):
             mesh.contours.append(Contour(v, 1, z))
             mesh.include(v)
             mesh.make_delaunay()
+            regions = find_regions(mesh)
             changed = True
 
 
