@@ -1,4 +1,4 @@
-"""A second decoder of the Yamabiko code, written from docs/SPEC.md alone: short and exact, not fast.
+"""A second decoder of the Yamabiko code, written from docs/SPEC.md alone: exact, not fast.
 
 decode(code) gives a Map or raises Refused; numbers in the comments are the sections of that page.
 All numbers are whole; plan positions and heights are q8.
@@ -252,7 +252,7 @@ class Mesh:
                 self.set(v, q, c)
 
     def find(self, place):
-        """The triangle that holds a place: its corners and, for each, the turn at the edge there."""
+        """The triangle that holds a place: its corners and the turns at its edges."""
         at = self.place
         for a, b, c in self.triangles():
             sides = turn(at[a], at[b], place), turn(at[b], at[c], place), turn(at[c], at[a], place)
@@ -366,7 +366,7 @@ def triangulate(plan):
     for k, z in heights.items():
         x, y = corners(plan)[k]
         mesh.add((x * 256, y * 256), z)
-    mesh.plan = plan
+    mesh.points, mesh.coded = len(plan.points), len(mesh.place)
     mesh.contours = list(plan.contours)
     mesh.corners = [mesh.place.index((x * 256, y * 256)) for x, y in corners(plan)]
     sw, se, ne, nw = mesh.corners
@@ -519,7 +519,7 @@ def add_summits(mesh):
 
 
 def steepest(mesh, p, spots):
-    """Of spot heights, the one with the greatest slope from p, and that slope; (None, 0)."""
+    """Of spot heights, the one with the greatest slope from p; None if no slope is above 0."""
     best, most = None, Fraction(0)
     for v in spots:
         slope = Fraction(abs(mesh.z[v] - mesh.z[p]), mesh.length(p, v))
@@ -769,10 +769,10 @@ class Skeletons:
         return min(max(slope, 1), 1 << 14)
 
     def begin(self):
-        mesh, points = self.mesh, len(self.mesh.plan.points)
+        mesh, points = self.mesh, self.mesh.points
         for a, b in self.bridges(mesh.edges()):
-            if not mesh.inner(a, b) and (b >= points or (a, b) not in mesh.apex):
-                continue
+            if (a, b) not in mesh.apex or not mesh.inner(a, b) and b >= points:
+                continue  # on the frame
             h = mesh.z[a]
             p, q = self.thirds(a, b)
 
@@ -974,9 +974,11 @@ PARTS = {
 
 
 class Map:
-    """vertex: (x, y, z, g_x, g_y); triangle: three numbers; scale: S_c."""
+    """vertex: (x, y, z, g_x, g_y), the first `coded` before the rules; triangle: three numbers;
+    scale: S_c."""
 
     def __init__(self, plan, mesh):
+        self.coded = mesh.coded
         self.seed, self.smooth = plan.seed, plan.smooth
         slopes = find_slopes(mesh)
         self.vertex = [(*mesh.place[v], mesh.z[v], *slopes[v]) for v in range(len(mesh.place))]
@@ -998,7 +1000,7 @@ class Map:
         return x, y, z, (gxa + gxb) // 2, (gya + gyb) // 2
 
     def parts(self, corner, detail):
-        """3.4: what the reference surface makes of a triangle, one step on; None: it is left whole."""
+        """3.4: what a triangle is split into, one step on; None: it is left whole."""
         points, split = list(corner), []
         for k in range(3):
             a, b = corner[k], corner[(k + 1) % 3]
