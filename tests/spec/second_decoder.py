@@ -1,4 +1,4 @@
-"""A second decoder of the Yamabiko code, written from docs/SPEC.md alone: short and exact, not fast.
+"""A second decoder of the Yamabiko code, written from docs/SPEC.md alone: exact, not fast.
 
 decode(code) gives a Map or raises Refused; numbers in the comments are the sections of that page.
 All numbers are whole; plan positions and heights are q8.
@@ -76,21 +76,12 @@ def read_header(read):
     """1.1"""
     plan = Plan()
     refuse_if(read.number(1) != 0x20, "version")
-    flags = read.number(1)
-    refuse_if(flags & 8)
+    flags, contours, plan.most_vertices, plan.east, plan.north = (read.number(1) for _ in range(5))
+    cell, unit, _, plan.seed, plan.gain = (read.number(n) for n in (2, 2, 2, 1, 1))
+    refuse_if(flags & 8 or plan.most_vertices < 4 or plan.east == 0 or plan.north == 0)
+    plan.cell, plan.unit = unit_64th(cell), unit_64th(unit)
     plan.smooth = not flags & 4
     plan.shift = flags & 3
-    contours = read.number(1)
-    plan.most_vertices = read.number(1)
-    refuse_if(plan.most_vertices < 4)
-    plan.east = read.number(1)
-    plan.north = read.number(1)
-    refuse_if(plan.east == 0 or plan.north == 0)
-    plan.cell = unit_64th(read.number(2))
-    plan.unit = unit_64th(read.number(2))
-    read.number(2)
-    plan.seed = read.number(1)
-    plan.gain = read.number(1)
     plan.corner = [height_q8(plan, read.number(2)) if flags & 0x80 >> k else None for k in range(4)]
     plan.frame = None if flags & 0xF0 else height_q8(plan, read.number(2))
     plan.counts = []
@@ -261,7 +252,7 @@ class Mesh:
                 self.set(v, q, c)
 
     def find(self, place):
-        """The triangle that holds a place: its corners and, for each, the turn at the edge there."""
+        """The triangle that holds a place: its corners and the turns at its edges."""
         at = self.place
         for a, b, c in self.triangles():
             sides = turn(at[a], at[b], place), turn(at[b], at[c], place), turn(at[c], at[a], place)
@@ -375,7 +366,7 @@ def triangulate(plan):
     for k, z in heights.items():
         x, y = corners(plan)[k]
         mesh.add((x * 256, y * 256), z)
-    mesh.plan = plan
+    mesh.points, mesh.coded = len(plan.points), len(mesh.place)
     mesh.contours = list(plan.contours)
     mesh.corners = [mesh.place.index((x * 256, y * 256)) for x, y in corners(plan)]
     sw, se, ne, nw = mesh.corners
@@ -422,24 +413,26 @@ class Region:
 
 def find_regions(mesh):
     """In their order, each with its lines and the spot heights in it (2.3)."""
-    lines = [c for c in mesh.contours if c.count > 1]
-    segments = {key(a, b) for line in lines for a, b in line.segments()}
+    segments = {key(a, b) for contour in mesh.contours for a, b in contour.segments()}
     regions = []
-    for line in lines:
-        for side in (0, 1):
-            a, b = line.segments()[0]
-            seed = (b, a) if side else (a, b)
-            region = next((r for r in regions if seed in r.edges), None)
-            if region is None:
-                region = Region(mesh, seed, segments)
-                regions.append(region)
-            region.sides.append((line, side))
-    for region in regions:
-        for line in region.lines():
-            region.across[line] = next(r for r in regions
-                                       if r is not region and line in r.lines())
-        inside = set(region.vertices)
-        region.spots = [c.first for c in mesh.contours if c.count == 1 and c.first in inside]
+
+    def region_of(seed):
+        region = next((r for r in regions if seed in r.edges), None)
+        if region is None:
+            region = Region(mesh, seed, segments)
+            regions.append(region)
+        return region
+
+    for contour in mesh.contours:
+        if contour.count == 1:
+            seed = next(e for e in mesh.apex if e[0] == contour.first)
+            region_of(seed).spots.append(contour.first)
+            continue
+        a, b = contour.segments()[0]
+        left, right = region_of((a, b)), region_of((b, a))
+        left.sides.append((contour, 0))
+        right.sides.append((contour, 1))
+        left.across[contour], right.across[contour] = right, left
     return regions
 
 
@@ -499,11 +492,14 @@ def summit_place(mesh, region):
 
 def add_summits(mesh):
     """2.4"""
+    looks = [(c, side) for c in mesh.contours for side in ((0, 1) if c.count > 1 else (0,))]
+    regions = find_regions(mesh)
     changed = True
     while changed:
         changed = False
-        for k in range(len(find_regions(mesh))):
-            region = find_regions(mesh)[k]
+        for contour, side in looks:
+            region = next(r for r in regions
+                          if (contour, side) in r.sides or contour.first in r.spots)
             if len({mesh.z[v] for v in region.vertices}) > 1:
                 continue
             rise = rise_of(mesh, region)
@@ -515,6 +511,7 @@ def add_summits(mesh):
             mesh.contours.append(Contour(v, 1, z))
             mesh.include(v)
             mesh.make_delaunay()
+            regions = find_regions(mesh)
             changed = True
 
 
@@ -522,7 +519,7 @@ def add_summits(mesh):
 
 
 def steepest(mesh, p, spots):
-    """Of spot heights, the one with the greatest slope from p, and that slope; (None, 0)."""
+    """Of spot heights, the one with the greatest slope from p; None if no slope is above 0."""
     best, most = None, Fraction(0)
     for v in spots:
         slope = Fraction(abs(mesh.z[v] - mesh.z[p]), mesh.length(p, v))
@@ -702,6 +699,8 @@ def off_segment(mesh, p, v, q):
 def add_links(mesh):
     """2.5"""
     for k, region in enumerate(find_regions(mesh)):
+        if not region.sides:
+            continue
         if len(region.sides) == 1:
             link_fan(mesh, find_regions(mesh)[k])
         else:
@@ -770,10 +769,10 @@ class Skeletons:
         return min(max(slope, 1), 1 << 14)
 
     def begin(self):
-        mesh, points = self.mesh, len(self.mesh.plan.points)
+        mesh, points = self.mesh, self.mesh.points
         for a, b in self.bridges(mesh.edges()):
-            if not mesh.inner(a, b) and (b >= points or (a, b) not in mesh.apex):
-                continue
+            if (a, b) not in mesh.apex or not mesh.inner(a, b) and b >= points:
+                continue  # on the frame
             h = mesh.z[a]
             p, q = self.thirds(a, b)
 
@@ -975,9 +974,11 @@ PARTS = {
 
 
 class Map:
-    """vertex: (x, y, z, g_x, g_y); triangle: three numbers; scale: S_c."""
+    """vertex: (x, y, z, g_x, g_y), the first `coded` before the rules; triangle: three numbers;
+    scale: S_c."""
 
     def __init__(self, plan, mesh):
+        self.coded = mesh.coded
         self.seed, self.smooth = plan.seed, plan.smooth
         slopes = find_slopes(mesh)
         self.vertex = [(*mesh.place[v], mesh.z[v], *slopes[v]) for v in range(len(mesh.place))]
@@ -999,7 +1000,7 @@ class Map:
         return x, y, z, (gxa + gxb) // 2, (gya + gyb) // 2
 
     def parts(self, corner, detail):
-        """3.4: what the reference surface makes of a triangle, one step on; None: it is left whole."""
+        """3.4: what a triangle is split into, one step on; None: it is left whole."""
         points, split = list(corner), []
         for k in range(3):
             a, b = corner[k], corner[(k + 1) % 3]
