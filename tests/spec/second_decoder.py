@@ -555,32 +555,31 @@ def spots_behind(region, line):
     return sorted(found)
 
 
-def walk(mesh, region, a, b, line_a, line_b):
-    """Where the segment ab comes into the region and leaves it: (t_a, t_b), or None."""
+def crossings(mesh, line, a, b):
+    """Where the segments of a line cross ab, in 1/65536 of its length."""
     p, q = mesh.place[a], mesh.place[b]
-    axis = 0 if p[0] != q[0] else 1
-    met = [(Fraction(r[axis] - p[axis], q[axis] - p[axis]), None) for r in mesh.place
-           if turn(p, q, r) == 0 and between(p, q, r)]
-    for line in region.lines():
-        for c, d in line.segments():
-            r, s = mesh.place[c], mesh.place[d]
-            if cross(p, q, r, s):
-                met.append((Fraction(turn(r, s, p), turn(r, s, p) - turn(r, s, q)), line))
-    inside, t_a = False, None
-    for t, line in sorted(met, key=lambda m: m[0]):
-        if line is line_a:
-            inside = not inside
-            t_a = math.floor(t * 65536) if inside else t_a
-        elif line is line_b and inside:
-            return t_a, math.floor(t * 65536)
-        else:
-            return None
-    return None
+    for c, d in line.segments():
+        r, s = mesh.place[c], mesh.place[d]
+        at_a, at_b = turn(r, s, p), turn(r, s, q)
+        if (at_a > 0) != (at_b > 0) and (turn(p, q, r) > 0) != (turn(p, q, s) > 0):
+            yield 65536 * at_a // (at_a - at_b)
+
+
+def gap(mesh, region, a, b, line_a, line_b):
+    """Where the segment ab leaves line_a and enters line_b: (t_a, t_b), or None."""
+    t_b = min(crossings(mesh, line_b, a, b), default=None)
+    if t_b is None:
+        return None
+    t_a = max((t for t in crossings(mesh, line_a, a, b) if t < t_b), default=None)
+    if t_a is None or any(t_a < t < t_b for line in region.lines()
+                          for t in crossings(mesh, line, a, b)):
+        return None
+    return t_a, t_b
 
 
 def link_point(mesh, region, a, b, line_a, line_b, h, o):
     """Tries to join two lines: the new vertex, or None."""
-    ways = walk(mesh, region, a, b, line_a, line_b)
+    ways = gap(mesh, region, a, b, line_a, line_b)
     if ways is None:
         return None
     t_a, t_b = ways
@@ -764,14 +763,14 @@ class Skeletons:
         mesh = self.mesh
         rise = mesh.z[p] - h
         steep = [256 * abs(mesh.z[q] - mesh.z[p]) // mesh.length(p, q) for q in mesh.round(p)
-                 if (p, q) in mesh.apex and q < self.old and (mesh.z[q] - mesh.z[p]) * rise > 0]
+                 if q < self.old and (mesh.z[q] - mesh.z[p]) * rise > 0]
         slope = max(steep, default=0) or 256 * abs(rise) // mesh.length(p, m)
         return min(max(slope, 1), 1 << 14)
 
     def begin(self):
         mesh, points = self.mesh, self.mesh.points
         for a, b in self.bridges(mesh.edges()):
-            if (a, b) not in mesh.apex or not mesh.inner(a, b) and b >= points:
+            if not mesh.inner(a, b) and b >= points:
                 continue  # on the frame
             h = mesh.z[a]
             p, q = self.thirds(a, b)
@@ -884,8 +883,20 @@ def find_slopes(mesh):
         for v in corner:
             for k in range(3):
                 sums[v][k] += normal[k]
-    return [tuple(min(max(-64 * n // up, -8192), 8192) for n in (east, north)) if up else (0, 0)
-            for east, north, up in sums]
+    slopes = [tuple(min(max(-64 * n // up, -8192), 8192) for n in (east, north)) if up else (0, 0)
+              for east, north, up in sums]
+    return [limited(mesh, v, slope) for v, slope in enumerate(slopes)]
+
+
+def limited(mesh, v, slope):
+    """The slope that lets no edge at v overshoot."""
+    least = 1 << 15
+    for w in mesh.round(v):
+        rise = mesh.z[w] - mesh.z[v]
+        along = sum(g * (q - p) for g, p, q in zip(slope, mesh.place[v], mesh.place[w]))
+        if rise * along > 0 and abs(along) > 3072 * abs(rise):
+            least = min(least, (3072 * abs(rise) << 15) // abs(along))
+    return tuple(g * least >> 15 for g in slope)
 
 
 # --- 3. The surface -------------------------------------------------------------------------------
