@@ -166,8 +166,9 @@ static void limit_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
             int32_t s = a->gx_q11 * (b->x_q8 - a->x_q8) + a->gy_q11 * (b->y_q8 - a->y_q8);
             int32_t rise = b->z_q8 - a->z_q8;
             int64_t most = (int64_t)fix_abs(rise) * 3072;
-            if (rise != 0 && (rise > 0) == (s > 0) && fix_abs(s) > most)
-                share_q15 = fix_min(share_q15, (int32_t)((most << 15) / fix_abs(s)));
+            int32_t along = fix_abs(s);
+            if (rise != 0 && along != 0 && (rise > 0) == (s > 0) && along > most)
+                share_q15 = fix_min(share_q15, (int32_t)((most << 15) / along));
         }
     }
     a->gx_q11 = (int16_t)((a->gx_q11 * share_q15) >> 15);

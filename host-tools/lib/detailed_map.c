@@ -169,9 +169,9 @@ static yb_status_t build(builder_t *builder, yb_line_loss_t *loss)
 static bool build_thinner(builder_t *builder, yb_line_loss_t *loss, yb_error_t *error)
 {
     yb_status_t status = YB_ERR_LIMIT;
-    for (double thinned = 0; status == YB_ERR_LIMIT && thinned < GRAINS * STEPS;
-         thinned = fmax(0.5, 2 * thinned)) {
-        builder->thinned_m = thinned * builder->cell_m / GRAINS;
+    for (int half = 0; status == YB_ERR_LIMIT && half < 2 * GRAINS * STEPS;
+         half = half == 0 ? 1 : 2 * half) {
+        builder->thinned_m = half * builder->cell_m / (2 * GRAINS);
         if (!begin_map(builder, error))
             return false;
         status = build(builder, loss);

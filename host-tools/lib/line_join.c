@@ -96,7 +96,7 @@ static bool follow(const yb_piece_t *piece, const int *partner, int from, bool *
         places += (size_t)piece[end / 2].count;
         used[end / 2] = true;
     }
-    *line = (yb_piece_t){malloc(places * sizeof(yb_place_t)), 0};
+    *line = (yb_piece_t){calloc(places, sizeof(yb_place_t)), 0};
     if (line->place == NULL)
         return false;
     int end = from;
@@ -129,7 +129,7 @@ static int join_all(const yb_piece_t *piece, int count, const int *partner, bool
 int yb_line_join(yb_piece_t *piece, int count)
 {
     end_t *end = malloc(2 * (size_t)count * sizeof(*end) + 1);
-    int *partner = malloc(2 * (size_t)count * sizeof(*partner) + 1);
+    int *partner = calloc(2 * (size_t)count + 1, sizeof(*partner));
     bool *used = calloc((size_t)count + 1, sizeof(*used));
     yb_piece_t *line = malloc((size_t)count * sizeof(*line) + 1);
     int lines = -1;

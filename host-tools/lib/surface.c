@@ -296,7 +296,7 @@ float *yb_map_heights_m(const yb_map_t *map, const uint16_t *x_q8, uint32_t colu
                         const uint16_t *y_q8, uint32_t rows)
 {
     const size_t places = (size_t)columns * rows;
-    int32_t *z_q8 = malloc(places * sizeof(*z_q8));
+    int32_t *z_q8 = calloc(places, sizeof(*z_q8));
     float *z_m = malloc(places * sizeof(*z_m));
     if (z_q8 != NULL && z_m != NULL) {
         yb_map_heights(map, x_q8, columns, y_q8, rows, z_q8);

@@ -377,11 +377,8 @@ static bool set_origin(const reader_t *reader, OGRSpatialReferenceH srs, yb_line
     lines->origin.west_m = reader->box[0];
     lines->origin.south_m = reader->box[1];
     char *wkt = NULL;
-    if (used != NULL && OSRExportToWkt(used, &wkt) == OGRERR_NONE) {
-        lines->origin.projection = malloc(strlen(wkt) + 1);
-        if (lines->origin.projection != NULL)
-            strcpy(lines->origin.projection, wkt);
-    }
+    if (used != NULL && OSRExportToWkt(used, &wkt) == OGRERR_NONE)
+        lines->origin.projection = strdup(wkt);
     bool good = wkt == NULL || lines->origin.projection != NULL;
     CPLFree(wkt);
     return good;
