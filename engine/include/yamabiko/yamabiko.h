@@ -122,7 +122,8 @@ typedef struct {
 #define YB_LENGTH_CLASSES 64
 
 /* A map after YB_OK. Read it freely; only the yb_map_ calls write it.
- * Vertices: first the contours' points in code order, then those corners that no contour has.
+ * Vertices: first the contours' points in code order, then those corners that no contour has, then
+ * those that the rules added (yb_vertex_rule).
  * Triangles: counter-clockwise seen from above; they tile the frame without gap or overlap.
  */
 typedef struct {
