@@ -112,7 +112,7 @@ typedef uint32_t yb_entry_t;
 #endif
 
 typedef struct {
-    uint16_t x_q8, y_q8; /* plan position: a multiple of 64, a quarter step */
+    uint16_t x_q8, y_q8; /* plan position: a multiple of 32, an eighth of a step */
     int32_t z_q8;        /* height above the base */
     int16_t gx_q11;      /* slope of the smooth surface towards the east, ±YB_MAX_SLOPE_Q11 */
     int16_t gy_q11;      /* and towards the north */
