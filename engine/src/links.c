@@ -23,9 +23,12 @@ static void look_beyond(const place_t *place)
             load->scratch[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
         }
     }
-    for (bool changed = true; changed;) {
+    /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
+    bool changed = true;
+    for (bool back = false; changed; back = !back) {
         changed = false;
-        for (int c = 0; c < load->contour_count; c++) {
+        for (int k = 0; k < load->contour_count; k++) {
+            int c = back ? load->contour_count - 1 - k : k;
             const yb_contour_t *line = &load->contour[c];
             if (!is_line(line) || bounds(place, c))
                 continue;

@@ -55,7 +55,7 @@ static int32_t crossing(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_inde
     if ((from > 0) == (to > 0) ||
         (orientation(map, a, b, p) > 0) == (orientation(map, a, b, q) > 0))
         return -1;
-    return (int32_t)(((int64_t)from << 16) / ((int64_t)from - to));
+    return (int32_t)((int64_t)from * 65536 / ((int64_t)from - to));
 }
 
 /* Of all places between `after` and `before` at which the segment ab crosses a line, the first one,
@@ -223,18 +223,20 @@ static bool comes_after(const pair_t *pair, const pair_t *last)
     return pair->a > last->a || (pair->a == last->a && pair->b > last->b);
 }
 
-/* The nearest pair of peaks whose lines are not joined yet and that comes after `last`, in the
- * order of distance, then of the spot heights' numbers.
+/* The nearest pair of peaks (branch[s].parent: the line that spot height s stands behind) whose
+ * lines are not joined yet and that comes after `last`, in the order of distance, then of the spot
+ * heights' numbers.
  */
 static bool next_pair(const level_t *level, const pair_t *last, pair_t *next)
 {
     const yb_load_t *load = level->place->load;
     bool found = false;
     for (int a = 0; a < all_contours(load); a++) {
-        int line_a = peak_behind(level, a);
+        int line_a = load->branch[a].parent;
         for (int b = a + 1; b < all_contours(load) && line_a != NOWHERE; b++) {
-            int line_b = peak_behind(level, b);
-            if (line_b == NOWHERE || group_of(load, line_a) == group_of(load, line_b))
+            int line_b = load->branch[b].parent;
+            if (line_b == NOWHERE || line_b == line_a ||
+                group_of(load, line_a) == group_of(load, line_b))
                 continue;
             pair_t pair = {
                 a, b,
@@ -257,13 +259,15 @@ static yb_status_t join_level(const level_t *level)
     pair_t last = {.apart = -1};
     pair_t pair = last;
     int refusals = 0;
+    for (int s = 0; s < all_contours(load); s++)
+        load->branch[s].parent = (yb_index_t)peak_behind(level, s);
     while (refusals < MOST_REFUSALS && next_pair(level, &last, &pair)) {
         bool joined = false;
         if (join(level, &pair, &joined) != YB_OK)
             return YB_ERR_LIMIT;
         if (joined)
-            load->group[group_of(load, peak_behind(level, pair.a))] =
-                group_of(load, peak_behind(level, pair.b));
+            load->group[group_of(load, load->branch[pair.a].parent)] =
+                group_of(load, load->branch[pair.b].parent);
         else
             refusals++;
         last = pair;
