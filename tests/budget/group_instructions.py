@@ -14,7 +14,7 @@ def many_summits():
     while len(places) < 251:
         state = (state * 1103515245 + 12345) & 0x7FFFFFFF
         places.add((1 + (state >> 8) % 253, 1 + (state >> 18) % 253))
-    return paper_code.paper_code([(20 + i * 97 % 251, [(x, y)])
+    return paper_code.paper_code([(30 + i * 97 % 251, [(x, y)])
                                   for i, (x, y) in enumerate(sorted(places))])
 
 
