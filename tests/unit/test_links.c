@@ -3,23 +3,7 @@
  */
 #include <yamabiko/yamabiko.h>
 
-#include "check.h"
-#include "maps.h"
-#include "mesh_check.h"
-#include "rule_check.h"
-
-static yb_map_t map;
-static yb_load_t load;
-
-static void load_plan(const plan_t *plan)
-{
-    uint8_t bytes[PLAN_MAX_BYTES];
-    assert_int_equal(yb_map_load(&map, &load, bytes, plan_write(plan, bytes)), YB_OK);
-    const char *wrong = mesh_check(&map, &load, plan);
-    CHECK(wrong == NULL, "%s", wrong);
-    wrong = rule_check(&map, &load, plan);
-    CHECK(wrong == NULL, "%s", wrong);
-}
+#include "checked_map.h"
 
 static void begin(plan_t *plan)
 {
