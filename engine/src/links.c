@@ -127,8 +127,7 @@ static yb_status_t fan(const place_t *place, int line)
     return YB_OK;
 }
 
-/* --- 4.2, 5.1 (3), 5.2: links down the slope ---------------------------------------------------
- */
+/* --- 4.2, 5.1 (3), 5.2: links down the slope ------------------------------------------------- */
 
 /* Distance of point p from the segment ab, in 1/64 steps. */
 static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)

@@ -81,3 +81,15 @@ yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint1
     map->vertex_count++;
     return YB_OK;
 }
+
+mesh_edge_t mesh_edge_at(const yb_map_t *map, yb_triangle_t t, int i)
+{
+    yb_index_t a = map->triangle[t][i];
+    yb_index_t b = map->triangle[t][next3(i)];
+    return (mesh_edge_t){a < b ? a : b, a < b ? b : a, t, i};
+}
+
+bool mesh_edge_before(const mesh_edge_t *a, const mesh_edge_t *b)
+{
+    return a->low < b->low || (a->low == b->low && a->high < b->high);
+}

@@ -94,10 +94,12 @@ bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_inde
 /* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
 YB_MUST_CHECK yb_status_t regions_find(const yb_map_t *map, yb_load_t *load);
 
-/* Rules 4.1: a summit, or the bottom of a pit, for every region that has no height but one. */
+/* Section 3: a summit, or the bottom of a pit, for every region of one height (SPEC 2.4). */
 YB_MUST_CHECK yb_status_t summits_add(yb_map_t *map, yb_load_t *load);
 
-/* Rules 4 to 7: link points between peaks, links from summits and down the slopes (SPEC 2.5). */
+/* Rules 4, 5 and 7: link points between peaks (saddles.c), links from summits and down the slopes
+ * (SPEC 2.5).
+ */
 YB_MUST_CHECK yb_status_t links_add(yb_map_t *map, yb_load_t *load);
 
 /* Rules 6: points along the middle of whatever still is flat (SPEC 2.6). */
@@ -115,6 +117,16 @@ yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle
  */
 yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
                      int *corner);
+
+/* An edge, in an order that does not depend on how the mesh is written down. */
+typedef struct {
+    yb_index_t low, high; /* its ends' numbers */
+    yb_triangle_t t;      /* of this triangle … */
+    int edge;             /* … this edge */
+} mesh_edge_t;
+
+mesh_edge_t mesh_edge_at(const yb_map_t *map, yb_triangle_t t, int i);
+bool mesh_edge_before(const mesh_edge_t *a, const mesh_edge_t *b);
 
 /* Do all corners lie at one height? */
 bool is_flat(const yb_map_t *map, yb_triangle_t t);

@@ -97,25 +97,6 @@ static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_i
     return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
 }
 
-/* An edge, in an order that does not depend on how the mesh is written down. */
-typedef struct {
-    yb_index_t low, high;
-    yb_triangle_t t;
-    int edge;
-} bridge_t;
-
-static bridge_t bridge_at(const yb_map_t *map, yb_triangle_t t, int i)
-{
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    return (bridge_t){a < b ? a : b, a < b ? b : a, t, i};
-}
-
-static bool comes_before(const bridge_t *a, const bridge_t *b)
-{
-    return a->low < b->low || (a->low == b->low && a->high < b->high);
-}
-
 /* What the middle of edge i of t would be reached from, if a branch began there; *other is `none`
  * if that is one point only. On the frame a bridge between two points of lines is met by its mirror
  * image; the frame's own corners, at one height, bridge nothing. False: none begins.
@@ -146,8 +127,8 @@ static bool begins_branch(const yb_map_t *map, const yb_load_t *load, yb_triangl
 }
 
 /* The bridge from v to the lowest higher number at which a branch begins, and what from. */
-static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next,
-                           yb_index_t *parent, yb_index_t *other)
+static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_t v,
+                           mesh_edge_t *next, yb_index_t *parent, yb_index_t *other)
 {
     const yb_index_t none = (yb_index_t)map->vertex_count;
     next->high = none;
@@ -155,7 +136,7 @@ static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         for (int k = 0; k < 2; k++) {
             int at = corner_of(map, t, v);
-            bridge_t bridge = bridge_at(map, t, k == 0 ? at : prev3(at));
+            mesh_edge_t bridge = mesh_edge_at(map, t, k == 0 ? at : prev3(at));
             yb_index_t p = none;
             yb_index_t q = none;
             if (bridge.low == v && bridge.high < next->high &&
@@ -177,7 +158,7 @@ static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_
 static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 {
     for (int v = 0; v < load->first_skeleton; v++) {
-        bridge_t bridge = {0};
+        mesh_edge_t bridge = {0};
         yb_index_t parent = 0;
         yb_index_t other = 0;
         while (find_beginning(map, load, (yb_index_t)v, &bridge, &parent, &other)) {
@@ -191,14 +172,14 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 }
 
 /* The next bridge that point v looks at. */
-static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
+static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, mesh_edge_t *next)
 {
     bool found = false;
     yb_triangle_t first = first_at(map, load, v);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         int i = next3(corner_of(map, t, v));
-        bridge_t bridge = bridge_at(map, t, i);
-        if (is_bridge(map, load, t, i) && (!found || comes_before(&bridge, next))) {
+        mesh_edge_t bridge = mesh_edge_at(map, t, i);
+        if (is_bridge(map, load, t, i) && (!found || mesh_edge_before(&bridge, next))) {
             found = true;
             *next = bridge;
         }
@@ -211,7 +192,7 @@ static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
 {
     int32_t unused = 0;
     uint32_t weight = steepness(map, load, beginning_of(map, load, v, &unused));
-    bridge_t bridge = {0};
+    mesh_edge_t bridge = {0};
     while (find_bridge(map, load, v, &bridge)) {
         yb_triangle_t t = bridge.t;
         int i = bridge.edge;

@@ -7,8 +7,7 @@
  */
 #include "mesh.h"
 
-/* --- How high ------------------------------------------------------------------------------------
- */
+/* --- How high -------------------------------------------------------------------------------- */
 
 /* What load->scratch says of a region. */
 enum {
@@ -115,8 +114,7 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triang
     return (int32_t)(round.rise < 0 ? -rise : rise);
 }
 
-/* --- Where ---------------------------------------------------------------------------------------
- */
+/* --- Where ----------------------------------------------------------------------------------- */
 
 /* A place in the mesh: the middle of edge `edge` of triangle t; or, with `beyond`, half way from
  * there to the triangle's third corner.
@@ -126,27 +124,6 @@ typedef struct {
     int edge;
     bool beyond;
 } spot_t;
-
-/* An edge's length and its ends, to find the longest, of equal ones that with the lowest numbers.
- */
-typedef struct {
-    int32_t length;
-    yb_index_t low, high;
-} rank_t;
-
-static rank_t rank_of(const yb_map_t *map, yb_triangle_t t, int i)
-{
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    return (rank_t){edge_length(map, a, b), a < b ? a : b, a < b ? b : a};
-}
-
-static bool ranks_above(rank_t a, rank_t b)
-{
-    if (a.length != b.length)
-        return a.length > b.length;
-    return a.low < b.low || (a.low == b.low && a.high < b.high);
-}
 
 /* Is the angle at corner i acute? Plan differences are below 2^16: each product below 2^32. */
 static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
@@ -166,14 +143,20 @@ static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
 static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region)
 {
     spot_t spot = {.beyond = true};
-    rank_t best = {.length = -1};
+    mesh_edge_t best = {0};
+    int32_t widest = -1;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3 && load->region[t] == region; i++) {
-            rank_t rank = rank_of(map, t, i);
             bool alone = load->neighbour[t][i] >= NO_TRIANGLE;
-            if (alone != spot.beyond ? spot.beyond : ranks_above(rank, best)) {
+            if (alone && !spot.beyond)
+                continue; /* there is a better kind of edge */
+            mesh_edge_t edge = mesh_edge_at(map, t, i);
+            int32_t wide = edge_length(map, edge.low, edge.high);
+            if (alone != spot.beyond || wide > widest ||
+                (wide == widest && mesh_edge_before(&edge, &best))) {
                 spot = (spot_t){t, i, alone};
-                best = rank;
+                best = edge;
+                widest = wide;
             }
         }
     }
