@@ -25,24 +25,6 @@ enum {
 static yb_map_t map;
 static yb_load_t load;
 
-static const char *word(yb_status_t status)
-{
-    switch (status) {
-    case YB_OK:
-        return "ok";
-    case YB_ERR_TRUNCATED:
-        return "truncated";
-    case YB_ERR_CORRUPT:
-        return "corrupt";
-    case YB_ERR_VERSION:
-        return "version";
-    case YB_ERR_LIMIT:
-        return "limit";
-    default:
-        return "unknown";
-    }
-}
-
 static void dump_height(uint16_t x_q8, uint16_t y_q8)
 {
     map.detail = true;
@@ -74,7 +56,7 @@ static void dump(const uint8_t *code, size_t count, rng_t *rng)
     printf("code ");
     for (size_t i = 0; i < count; i++)
         printf("%02x", code[i]);
-    printf("\nstatus %s\n", word(status));
+    printf("\nstatus %s\n", yb_status_text(status));
     for (int i = 0; status == YB_OK && i < map.vertex_count; i++) {
         const yb_vertex_t *v = &map.vertex[i];
         printf("vertex %d %d %" PRId32 " %d %d\n", v->x_q8, v->y_q8, v->z_q8, v->gx_q11, v->gy_q11);

@@ -483,3 +483,12 @@ void random_mess(plan_t *plan, rng_t *rng)
     if (rng_one_in(rng, 6))
         plan->corner_height[rng_range(rng, 0, 3)] = 7;
 }
+
+void random_map(plan_t *plan, uint64_t seed)
+{
+    rng_t rng = {seed};
+    if (seed % 4 == 0)
+        random_plan(plan, &rng);
+    else
+        random_mountain(plan, &rng);
+}

@@ -17,6 +17,9 @@ void random_plan(plan_t *plan, rng_t *rng);
  */
 void random_mountain(plan_t *plan, rng_t *rng);
 
+/* Of a seed: one in four a random_plan, else a random_mountain. */
+void random_map(plan_t *plan, uint64_t seed);
+
 /* A codable plan whose points and lines may do anything: cross, touch, repeat. */
 void random_mess(plan_t *plan, rng_t *rng);
 

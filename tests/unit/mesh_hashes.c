@@ -39,13 +39,9 @@ int main(int argc, char **argv)
     uint64_t hash = FNV_START;
     int too_large = 0;
     for (uint64_t seed = 0; seed < seeds; seed++) {
-        rng_t rng = {seed};
         plan_t plan;
         uint8_t bytes[PLAN_MAX_BYTES];
-        if (seed % 4 == 0)
-            random_plan(&plan, &rng);
-        else
-            random_mountain(&plan, &rng);
+        random_map(&plan, seed);
         int needed = vertices_needed(&plan);
         yb_status_t status = yb_map_load(&map, &load, bytes, plan_write(&plan, bytes));
         if (needed > 0 && status != (needed > 255 ? YB_ERR_LIMIT : YB_OK)) {
