@@ -200,6 +200,25 @@ static void a_cone_needs_none(void **state)
     assert_int_equal(map.vertex_count, 17);
 }
 
+/* A ridge that the frame cuts off: its line ends at both sides of it, whichever way it is coded. */
+static void a_ridge_goes_on_to_the_frame(void **state)
+{
+    (void)state;
+    for (int back = 0; back < 2; back++) {
+        plan_t plan;
+        begin(&plan);
+        const plan_point_t there[] = {{0, 96}, {40, 96}, {40, 144}, {0, 144}};
+        const plan_point_t here[] = {{0, 144}, {40, 144}, {40, 96}, {0, 96}};
+        const plan_point_t summit[] = {{16, 120}};
+        add_line(&plan, back ? here : there, 4, 100);
+        add_line(&plan, summit, 1, 150);
+        load_plan(&plan);
+        int v = map_vertex_at(&map, 0, 120);
+        assert_true(v >= load.first_skeleton);
+        assert_int_equal(map.vertex[v].z_q8, 125 * 256);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -210,6 +229,7 @@ int main(void)
         cmocka_unit_test(two_summits_have_a_saddle),
         cmocka_unit_test(a_neck_is_a_saddle),
         cmocka_unit_test(a_cone_needs_none),
+        cmocka_unit_test(a_ridge_goes_on_to_the_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
