@@ -1,34 +1,25 @@
 /* The decoder: a state machine that takes a code byte by byte (docs/SPEC.md section 1).
  *
- * Points go straight into the map's vertices; nothing else of the code is kept. A state is one
- * kind of field; bytes enter a bit buffer and a state runs when its bits are there. What the bytes
- * claim is checked as soon as it is known, so that a bad code is refused early and every index
- * below is in range.
+ * This is the container: the first byte says by which profile the relief is coded, sections may
+ * follow it, a check byte ends it all. Points go straight into the map's vertices; nothing else of
+ * the code is kept. What the bytes claim is checked as soon as it is known, so that a bad code is
+ * refused early and every index is in range.
  */
+#include "code.h"
+
 #include <stddef.h>
 #include <string.h>
 
-#include <yamabiko/yamabiko.h>
-
-#include "fix.h"
 #include "mesh.h"
 
-enum state {
-    HEADER,
-    FRAME_HEIGHTS,
-    COUNTS,
-    DIMENSION,
-    HEIGHT,
-    START,
-    STEP,
-    CHECK,
-    DONE
-};
-
-enum {
-    HEADER_BYTES = 14,
-    FLAG_STRAIGHT = 4,
-    FLAG_RESERVED = 8
+enum part {
+    FIRST,
+    RELIEF,
+    SECTION_HEAD,
+    SECTION_SIZE_HIGH,
+    SECTION_SIZE_LOW,
+    SECTION_BODY,
+    CHECK
 };
 
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
@@ -41,142 +32,6 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
     for (int i = 0; i < 4; i++)
         load->corner_height[i] = UNKNOWN_HEIGHT;
     load->result = YB_MORE;
-}
-
-/* Height in q8 of a coded one: units times metres per unit over metres per step, rounded.
- * 2^16 * 2^12 * 2^15 * 2^8 = 2^51 fits easily; the divisor is at least 1.
- */
-static int32_t height_q8(const yb_map_t *map, uint32_t coded)
-{
-    uint64_t cell = yb_unit_64th_m(map->cell);
-    uint64_t height = ((uint64_t)coded * yb_unit_64th_m(map->unit) * 256 + cell / 2) / cell;
-    return height > YB_MAX_HEIGHT_Q8 ? -1 : (int32_t)height;
-}
-
-static yb_status_t take_header(yb_map_t *map, yb_load_t *load, uint8_t byte)
-{
-    const uint8_t *h = load->header;
-    load->header[load->at++] = byte;
-    if (load->at == 1 && byte != YB_FORMAT_VERSION << 4)
-        return YB_ERR_VERSION;
-    if (load->at < HEADER_BYTES)
-        return YB_MORE;
-    load->flags = h[1];
-    load->contour_count = h[2];
-    load->vertices_promised = h[3];
-    map->east_q8 = (uint16_t)(h[4] << 8);
-    map->north_q8 = (uint16_t)(h[5] << 8);
-    map->cell = (uint16_t)(h[6] << 8 | h[7]);
-    map->unit = (uint16_t)(h[8] << 8 | h[9]);
-    map->base_m = (int16_t)(h[10] << 8 | h[11]);
-    map->seed = h[12];
-    load->gain = h[13];
-    map->smooth = (load->flags & FLAG_STRAIGHT) == 0;
-    if ((load->flags & FLAG_RESERVED) != 0 || h[3] < 4 || h[4] == 0 || h[5] == 0 ||
-        (map->cell & 0xfff) == 0 || (map->unit & 0xfff) == 0)
-        return YB_ERR_CORRUPT;
-#if YB_MAX_VERTICES < 255
-    if (load->vertices_promised > YB_MAX_VERTICES)
-        return YB_ERR_LIMIT;
-#endif
-    load->at = 0;
-    load->state = FRAME_HEIGHTS;
-    return YB_MORE;
-}
-
-/* One height per coded corner, or, if none is coded, one for the whole frame. */
-static yb_status_t take_frame_height(yb_map_t *map, yb_load_t *load, uint32_t coded)
-{
-    uint32_t corners = load->flags >> 4; /* SW SE NE NW from bit 3 down */
-    int32_t height = height_q8(map, coded);
-    if (height < 0)
-        return YB_ERR_CORRUPT;
-    if (corners == 0) {
-        load->frame_height = height;
-    } else {
-        while ((corners & 8u >> load->at) == 0)
-            load->at++;
-        load->corner_height[load->at++] = height;
-        if ((corners << load->at & 15) != 0)
-            return YB_MORE;
-    }
-    load->at = 0;
-    load->state = load->contour_count > 0 ? COUNTS : DIMENSION;
-    return YB_MORE;
-}
-
-static yb_status_t take_count(yb_load_t *load, uint32_t count)
-{
-    yb_contour_t *contour = &load->contour[load->at++];
-    contour->first = (yb_index_t)load->point_count;
-    contour->count = (yb_index_t)count;
-    load->point_count = (uint16_t)(load->point_count + count);
-    if (count == 0 || load->point_count > load->vertices_promised)
-        return YB_ERR_CORRUPT;
-    if (load->at == load->contour_count) {
-        load->at = 0;
-        load->state = DIMENSION;
-    }
-    return YB_MORE;
-}
-
-/* The body has ended: what is left of its last byte must be zero. */
-static yb_status_t end_body(yb_load_t *load)
-{
-    if ((load->bits & ((1u << load->bits_held) - 1)) != 0)
-        return YB_ERR_CORRUPT;
-    load->bits_held = 0;
-    load->state = CHECK;
-    return YB_MORE;
-}
-
-static yb_status_t take_dimension(yb_map_t *map, yb_load_t *load, uint32_t d)
-{
-    map->hurst_q8m1 = (uint8_t)(255 - d); /* H = 2 - D = (256 - d) / 256 */
-    load->state = HEIGHT;
-    return load->contour_count > 0 ? YB_MORE : end_body(load);
-}
-
-/* A point has come: it lies in the frame or the code is corrupt. */
-static yb_status_t take_point(yb_map_t *map, yb_load_t *load, int32_t x, int32_t y)
-{
-    if (x < 0 || y < 0 || x > map->east_q8 >> 8 || y > map->north_q8 >> 8)
-        return YB_ERR_CORRUPT;
-    const yb_contour_t *contour = &load->contour[load->at];
-    yb_vertex_t *point = &map->vertex[map->vertex_count];
-    point->x_q8 = (uint16_t)(x << 8);
-    point->y_q8 = (uint16_t)(y << 8);
-    point->z_q8 = map->vertex[contour->first].z_q8;
-    map->vertex_count++;
-    load->state = STEP;
-    if (map->vertex_count < contour->first + contour->count)
-        return YB_MORE;
-    load->at++;
-    load->state = HEIGHT;
-    return load->at < load->contour_count ? YB_MORE : end_body(load);
-}
-
-static yb_status_t take_height(yb_map_t *map, yb_load_t *load, uint32_t coded)
-{
-    int32_t height = height_q8(map, coded);
-    if (height < 0)
-        return YB_ERR_CORRUPT;
-    map->vertex[map->vertex_count].z_q8 = height;
-    load->state = START;
-    return YB_MORE;
-}
-
-/* Six bits as a signed number, times the coded shift. */
-static int32_t difference(const yb_load_t *load, uint32_t six)
-{
-    return ((int32_t)(six & 63) - ((six & 32) != 0 ? 64 : 0)) * (1 << (load->flags & 3));
-}
-
-static yb_status_t take_step(yb_map_t *map, yb_load_t *load, uint32_t twelve)
-{
-    const yb_vertex_t *last = &map->vertex[map->vertex_count - 1];
-    return take_point(map, load, (last->x_q8 >> 8) + difference(load, twelve >> 6),
-                      (last->y_q8 >> 8) + difference(load, twelve));
 }
 
 yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
@@ -200,39 +55,6 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
     return status;
 }
 
-static yb_status_t take_check(yb_map_t *map, yb_load_t *load)
-{
-    if (load->crc != 0)
-        return YB_ERR_CORRUPT;
-    load->state = DONE;
-    return yb_map_build(map, load);
-}
-
-static yb_status_t take_field(yb_map_t *map, yb_load_t *load, uint32_t field)
-{
-    switch ((enum state)load->state) {
-    case HEADER:
-        return take_header(map, load, (uint8_t)field);
-    case FRAME_HEIGHTS:
-        return take_frame_height(map, load, field);
-    case COUNTS:
-        return take_count(load, field);
-    case DIMENSION:
-        return take_dimension(map, load, field);
-    case HEIGHT:
-        return take_height(map, load, field);
-    case START:
-        return take_point(map, load, (int32_t)(field >> 8), (int32_t)(field & 255));
-    case STEP:
-        return take_step(map, load, field);
-    case CHECK:
-        return take_check(map, load);
-    case DONE:
-        break;
-    }
-    return YB_ERR_CORRUPT; /* a byte after the last one */
-}
-
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */
 static uint8_t crc8(uint8_t crc, uint8_t byte)
 {
@@ -242,22 +64,86 @@ static uint8_t crc8(uint8_t crc, uint8_t byte)
     return crc;
 }
 
+static enum part after_section(const yb_load_t *load)
+{
+    return (load->section & SECTION_LAST) != 0 ? CHECK : SECTION_HEAD;
+}
+
+static yb_status_t take_first(yb_load_t *load, uint8_t byte)
+{
+    load->profile = byte & 15;
+    if (byte >> 4 != YB_FORMAT_VERSION || load->profile > YB_COMPACT)
+        return YB_ERR_VERSION;
+    if (load->profile == YB_COMPACT)
+        compact_begin(load);
+    else
+        paper_begin(load);
+    load->part = RELIEF;
+    return YB_MORE;
+}
+
+/* One byte of a section: kept if somebody wants it, else skipped. */
+static void take_section_byte(yb_map_t *map, yb_load_t *load, uint8_t byte)
+{
+    if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 0)
+        map->certified_error = byte;
+    else if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 1)
+        map->certified_k = byte;
+    load->section_at++;
+    if (load->section_at == load->section_size)
+        load->part = (uint8_t)after_section(load);
+}
+
+static void begin_section(yb_load_t *load, uint16_t size)
+{
+    load->section_at = 0;
+    load->section_size = size;
+    load->part = (uint8_t)(size > 0 ? SECTION_BODY : after_section(load));
+}
+
+/* What follows the relief. */
+static yb_status_t take_tail(yb_map_t *map, yb_load_t *load, uint8_t byte)
+{
+    switch ((enum part)load->part) {
+    case SECTION_HEAD:
+        load->section = byte;
+        load->section_size = 0;
+        if ((byte & 15) == SECTION_LONG)
+            load->part = SECTION_SIZE_HIGH;
+        else
+            begin_section(load, byte & 15);
+        return YB_MORE;
+    case SECTION_SIZE_HIGH:
+        load->section_size = (uint16_t)(byte << 8);
+        load->part = SECTION_SIZE_LOW;
+        return YB_MORE;
+    case SECTION_SIZE_LOW:
+        begin_section(load, (uint16_t)(load->section_size | byte));
+        return YB_MORE;
+    case SECTION_BODY:
+        take_section_byte(map, load, byte);
+        return YB_MORE;
+    default:
+        return load->crc != 0 ? YB_ERR_CORRUPT : yb_map_build(map, load);
+    }
+}
+
 static yb_status_t take_byte(yb_map_t *map, yb_load_t *load, uint8_t byte)
 {
-    static const uint8_t width[] = {
-        [HEADER] = 8, [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8, [HEIGHT] = 16,
-        [START] = 16, [STEP] = 12,          [CHECK] = 8,  [DONE] = 8,
-    };
     load->crc = crc8(load->crc, byte);
-    load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
-    load->bits_held = (uint8_t)(load->bits_held + 8);
-    yb_status_t status = YB_MORE;
-    while (status == YB_MORE && load->bits_held >= width[load->state]) {
-        uint32_t bits = width[load->state];
-        load->bits_held = (uint8_t)(load->bits_held - bits);
-        status = take_field(map, load, load->bits >> load->bits_held & ((1u << bits) - 1));
-    }
-    return status;
+    load->size++;
+    if (load->part == FIRST)
+        return take_first(load, byte);
+    if (load->part != RELIEF)
+        return take_tail(map, load, byte);
+    bool compact = load->profile == YB_COMPACT;
+    yb_status_t status = compact ? compact_take(map, load, byte) : paper_take(map, load, byte);
+    if (status != YB_OK)
+        return status;
+    load->part = (uint8_t)after_section(load);
+    /* The compact profile has read one byte ahead. */
+    load->relief_size = (uint16_t)(load->size - (compact ? 1 : 0));
+    return compact ? take_tail(map, load, byte) : YB_MORE;
 }
 
 yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes, size_t count)

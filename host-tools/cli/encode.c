@@ -131,10 +131,9 @@ static int take_coding(request_t *request, int answer)
         request->task.most_bytes = (size_t)value;
         return status;
     case OPTION_PROFILE:
-        if (strcmp(optarg, "compact") == 0)
-            return cli_usage("the profile compact is not in this version; use paper");
-        if (strcmp(optarg, "paper") != 0)
-            return cli_usage("there is no profile '%s'; use paper", optarg);
+        if (strcmp(optarg, "compact") != 0 && strcmp(optarg, "paper") != 0)
+            return cli_usage("there is no profile '%s': use compact or paper", optarg);
+        request->task.profile = strcmp(optarg, "compact") == 0 ? YB_COMPACT : YB_PAPER;
         return CLI_OK;
     case OPTION_LEVELS:
         status = take_integer("--levels", 1, YB_ENCODE_MOST_LEVELS, &value);
@@ -339,7 +338,8 @@ static int check_request(request_t *request)
 
 int cli_encode(int argc, char **argv)
 {
-    request_t request = {.task = {.most_bytes = YB_ENCODE_DEFAULT_BYTES,
+    request_t request = {.task = {.profile = YB_COMPACT,
+                                  .most_bytes = YB_ENCODE_DEFAULT_BYTES,
                                   .seed = 1,
                                   .effort = YB_ENCODE_DEFAULT_EFFORT}};
     int answer = 0;

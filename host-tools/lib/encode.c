@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fractal.h"
+#include "compact_code.h"
 #include "judge.h"
 #include "line_grid.h"
 #include "search.h"
@@ -26,8 +27,8 @@ enum {
 };
 
 /* Temperatures of the search, as shares of the relief's standard deviation. */
-static const double hot = 0.004;
-static const double cold = 0.0001;
+static const double hot = 0.02;
+static const double cold = 0.0005;
 /* Part of the trials spent on all drafts before the best is chosen. */
 static const double first_part = 0.3;
 
@@ -81,13 +82,21 @@ static bool choose_levels(encoder_t *encoder, yb_error_t *error)
     return true;
 }
 
-static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int shift)
+static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing)
 {
     const yb_grid_t *grid = encoder->grid;
     double width = yb_grid_width_m(grid);
     double depth = yb_grid_depth_m(grid);
-    yb_sketch_begin(paper, width, depth, (double)grid->low_m, (double)grid->high_m, shift);
+    yb_sketch_begin(paper, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
     paper->seed = encoder->task->seed;
+    paper->profile = encoder->task->profile;
+    if (paper->profile == YB_COMPACT) {
+        const char *e = getenv("YB_UNIT");
+        paper->cell = yb_compact_cell(fmax(width / paper->east, depth / paper->north));
+        paper->unit = yb_compact_unit(grid->std_m / (e ? atof(e) : 5));
+        paper->base = (int)floor((double)grid->low_m / yb_paper_metres(paper->unit)) - 20;
+        paper->vertex_class = 7;
+    }
     const double corner[YB_CORNERS][2] = {{0, 0}, {width, 0}, {width, depth}, {0, depth}};
     double sum = 0;
     for (int i = 0; i < YB_CORNERS; i++) {
@@ -102,7 +111,9 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int shift)
 /* Keeps a draft if it is among the best. */
 static void offer_draft(encoder_t *encoder, const yb_paper_t *paper)
 {
-    double rmse = yb_judge_score_m(encoder->judge, paper);
+    uint8_t code[YB_PAPER_MOST_BYTES];
+    size_t size = yb_paper_code(paper, code, encoder->task->most_bytes, NULL);
+    double rmse = size > 0 ? yb_judge_score_m(encoder->judge, code, size) : -1;
     if (rmse < 0)
         return;
     int at = encoder->drafts;
@@ -123,10 +134,11 @@ static void draft_lines(encoder_t *encoder, const yb_lines_t *lines)
 {
     double longest = fmax(lines->width_m, lines->depth_m);
     size_t bytes = encoder->task->most_bytes;
-    for (int shift = 1; shift <= 3; shift++)
+    const char *g = getenv("YB_SPACING");
+    for (int spacing = g ? atoi(g) : 2; spacing <= (g ? atoi(g) : 8); spacing *= 2)
         for (int i = 0; i < TOLERANCES; i++) {
             yb_paper_t paper;
-            begin_paper(encoder, &paper, shift);
+            begin_paper(encoder, &paper, spacing);
             yb_sketch_spot(&paper, lines, yb_sketch_summit(encoder->grid),
                            (double)encoder->grid->high_m, bytes);
             yb_sketch_lines(&paper, lines, tolerances[i] * longest, bytes);
@@ -179,7 +191,7 @@ static void better_draft(encoder_t *encoder, draft_t *draft, long trials, double
     yb_search_t search = {.grid = encoder->grid,
                           .judge = encoder->judge,
                           .most_bytes = encoder->task->most_bytes,
-                          .pinned = draft->paper.contour_count > 0 ? 1 : 0,
+                          .pinned = getenv("YB_NOPIN") == NULL && draft->paper.contour_count > 0 ? 1 : 0,
                           .level = level,
                           .levels = encoder->levels,
                           .trials = trials,
@@ -232,6 +244,8 @@ static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error
         return false;
     draft_t *best = search_best(encoder, trials);
     best->paper.dimension = yb_fractal_coded(result->dimension);
+    if (best->paper.profile == YB_COMPACT)
+        best->paper.dimension = yb_compact_dimension(best->paper.dimension);
     /* Lines say nothing of what lies between them: the noise stays as strong as they suggest. */
     if (encoder->given == NULL)
         yb_fractal_gain(&best->paper, encoder->grid);

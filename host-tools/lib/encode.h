@@ -21,6 +21,7 @@ enum {
 
 typedef struct {
     size_t most_bytes;
+    yb_profile_t profile;
     int levels;        /* so many evenly spaced heights for lines; 0: see below */
     double interval_m; /* lines at multiples of it; 0: heights are the encoder's choice */
     uint8_t seed;      /* of the map's noise */

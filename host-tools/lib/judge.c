@@ -10,7 +10,6 @@
 static const double slope_weight = 0.5;
 
 enum {
-    REFINE_Q8 = 16 * 256,
     MOST_SIDE = 256
 };
 
@@ -97,59 +96,72 @@ static void lay_axis(axis_t *axis, int size)
     }
 }
 
-/* Writes the heights of a small triangle at the samples in it, borders included. No edge is longer
- * than 16 steps, so that products of differences stay below 2^26.
+/* Bezier control point of an edge. */
+static float middle_of(const yb_judge_t *judge, const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    float middle = (float)(a->z_q8 + b->z_q8) / 2;
+    if (!judge->map.smooth)
+        return middle;
+    /* Slopes in 1/2048, a quarter of their difference along the edge. */
+    int64_t bulge = (int64_t)(a->gx_q11 - b->gx_q11) * (b->x_q8 - a->x_q8) +
+                    (int64_t)(a->gy_q11 - b->gy_q11) * (b->y_q8 - a->y_q8);
+    return middle + (float)bulge / (4 * 2048);
+}
+
+/* Writes the heights of the smooth surface over a base triangle at the samples in it, borders
+ * included. It is one quadratic there: a Bezier triangle, whose middle control points are the
+ * middles of the edges with twice the bulge that refinement gives them.
  */
-static void sample_triangle(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
+static void sample_triangle(yb_judge_t *judge, const yb_vertex_t *a, const yb_vertex_t *b,
                             const yb_vertex_t *c)
 {
-    yb_judge_t *judge = context;
     const axis_t *across = &judge->across;
     const axis_t *up = &judge->up;
     int east = greatest(a->x_q8, b->x_q8, c->x_q8);
     int north = greatest(a->y_q8, b->y_q8, c->y_q8);
     int first = across->from[least(a->x_q8, b->x_q8, c->x_q8) >> 8];
     int row = up->from[least(a->y_q8, b->y_q8, c->y_q8) >> 8];
-    if (first >= across->count || across->at_q8[first] > east)
-        return;
-    int bx = b->x_q8 - a->x_q8;
-    int by = b->y_q8 - a->y_q8;
-    int cx = c->x_q8 - a->x_q8;
-    int cy = c->y_q8 - a->y_q8;
-    int area = bx * cy - by * cx;
-    if (area <= 0)
-        return;
+    int64_t area = (int64_t)(b->x_q8 - a->x_q8) * (c->y_q8 - a->y_q8) -
+                   (int64_t)(b->y_q8 - a->y_q8) * (c->x_q8 - a->x_q8);
+    float whole = 1 / (float)area;
+    /* Shares of a, b and c, and what they change by from sample to sample of a row. */
+    float ab = middle_of(judge, a, b);
+    float bc = middle_of(judge, b, c);
+    float ca = middle_of(judge, c, a);
     for (; row < up->count && up->at_q8[row] <= north; row++) {
         int y = up->at_q8[row] - a->y_q8;
         for (int column = first; column < across->count && across->at_q8[column] <= east;
              column++) {
             int x = across->at_q8[column] - a->x_q8;
-            int of_b = x * cy - y * cx;
-            int of_c = bx * y - by * x;
+            int64_t of_b = (int64_t)x * (c->y_q8 - a->y_q8) - (int64_t)y * (c->x_q8 - a->x_q8);
+            int64_t of_c = (int64_t)y * (b->x_q8 - a->x_q8) - (int64_t)x * (b->y_q8 - a->y_q8);
             if (of_b < 0 || of_c < 0 || of_b + of_c > area)
                 continue;
-            float z_q8 = (float)a->z_q8 + ((float)of_b * (float)(b->z_q8 - a->z_q8) +
-                                           (float)of_c * (float)(c->z_q8 - a->z_q8)) /
-                                              (float)area;
+            float v = (float)of_b * whole;
+            float w = (float)of_c * whole;
+            float u = 1 - v - w;
+            float z_q8 = u * u * (float)a->z_q8 + v * v * (float)b->z_q8 + w * w * (float)c->z_q8 +
+                         2 * (u * v * ab + v * w * bc + w * u * ca);
             judge->found_m[row * across->count + column] =
                 judge->base_m + z_q8 * judge->metres_per_q8;
         }
     }
 }
 
-double yb_judge_score_m(yb_judge_t *judge, const yb_paper_t *paper)
+double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
 {
-    uint8_t code[YB_MAX_CODE_BYTES];
-    size_t size = yb_paper_write(paper, code);
-    if (size == 0 || yb_map_load(&judge->map, &judge->load, code, size) != YB_OK)
+    if (yb_map_load(&judge->map, &judge->load, code, size) != YB_OK)
         return -1;
     judge->map.detail = false;
-    judge->metres_per_q8 = (float)(yb_paper_metres(paper->cell) / 256);
-    judge->base_m = paper->base_m;
-    lay_axis(&judge->across, paper->east);
-    lay_axis(&judge->up, paper->north);
-    for (yb_triangle_t i = 0; i < judge->map.triangle_count; i++)
-        yb_map_refine(&judge->map, i, REFINE_Q8, sample_triangle, judge);
+    judge->metres_per_q8 = (float)(yb_paper_metres(judge->map.cell) / 256);
+    judge->base_m = judge->map.base_m;
+    lay_axis(&judge->across, judge->map.east_q8 >> 8);
+    lay_axis(&judge->up, judge->map.north_q8 >> 8);
+    const yb_vertex_t *vertex = judge->map.vertex;
+    for (yb_triangle_t i = 0; i < judge->map.triangle_count; i++) {
+        const yb_index_t *corner = judge->map.triangle[i];
+        sample_triangle(judge, &vertex[corner[0]], &vertex[corner[1]], &vertex[corner[2]]);
+    }
     int columns = judge->across.count;
     int samples = columns * judge->up.count;
     for (int i = 0; i < samples; i++)

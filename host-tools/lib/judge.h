@@ -19,7 +19,7 @@ void yb_judge_free(yb_judge_t *judge);
  * of 16 steps.) A negative number if the code is impossible. The judge keeps the differences until
  * the next call.
  */
-double yb_judge_score_m(yb_judge_t *judge, const yb_paper_t *paper);
+double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size);
 
 /* Where the surface judged last is farthest from the truth but within `share` (0 to 1, a random
  * number) of the samples' total squared error: a place drawn in proportion to it.

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "compact_code.h"
+
 enum {
     HEADER_BYTES = 14,
     LEAST_DIFFERENCE = -32,
@@ -36,10 +38,27 @@ double yb_paper_metres(uint16_t coded)
     return yb_unit_64th_m(coded) / 64.0;
 }
 
+static double base_m(const yb_paper_t *paper)
+{
+    return paper->profile == YB_COMPACT ? paper->base * yb_paper_metres(paper->unit)
+                                        : paper->base_m;
+}
+
+static uint16_t nearest_height(const yb_paper_t *paper, double height_m, int multiple)
+{
+    double unit_m = yb_paper_metres(paper->unit) * multiple;
+    double units = (height_m - base_m(paper)) / unit_m;
+    return (uint16_t)(lround(fmin(fmax(units, 0), UINT16_MAX / multiple)) * multiple);
+}
+
 uint16_t yb_paper_height(const yb_paper_t *paper, double height_m)
 {
-    double units = (height_m - paper->base_m) / yb_paper_metres(paper->unit);
-    return (uint16_t)lround(fmin(fmax(units, 0), UINT16_MAX));
+    return nearest_height(paper, height_m, 1);
+}
+
+uint16_t yb_paper_line_height(const yb_paper_t *paper, double height_m)
+{
+    return nearest_height(paper, height_m, 1 << paper->interval);
 }
 
 int yb_paper_first(const yb_paper_t *paper, int contour)
@@ -223,7 +242,7 @@ bool yb_paper_split(yb_paper_t *paper)
 {
     int first = 0;
     int unit = 1 << paper->shift;
-    for (int i = 0; i < paper->contour_count; i++) {
+    for (int i = 0; i < paper->contour_count && paper->profile == YB_PAPER; i++) {
         for (int k = first + 1; k < first + paper->contour[i].count; k++) {
             yb_step_t a = paper->point[k - 1];
             yb_step_t b = paper->point[k];
@@ -241,11 +260,67 @@ bool yb_paper_split(yb_paper_t *paper)
     return true;
 }
 
+bool yb_paper_reorder(yb_paper_t *paper, int contour, int to)
+{
+    if (contour == to)
+        return false;
+    yb_paper_contour_t moved = paper->contour[contour];
+    yb_step_t point[YB_PAPER_POINTS];
+    memcpy(point, &paper->point[yb_paper_first(paper, contour)], moved.count * sizeof(*point));
+    yb_paper_drop(paper, contour);
+    int first = yb_paper_first(paper, to);
+    memmove(&paper->point[first + moved.count], &paper->point[first],
+            (size_t)(paper->point_count - first) * sizeof(*point));
+    memcpy(&paper->point[first], point, moved.count * sizeof(*point));
+    paper->point_count += moved.count;
+    memmove(&paper->contour[to + 1], &paper->contour[to],
+            (size_t)(paper->contour_count - to) * sizeof(moved));
+    paper->contour[to] = moved;
+    paper->contour_count++;
+    return true;
+}
+
+bool yb_paper_rescale(yb_paper_t *paper, double unit_m)
+{
+    yb_paper_t before = *paper;
+    double old_m = yb_paper_metres(before.unit);
+    paper->unit = yb_compact_unit(unit_m);
+    if (paper->unit == before.unit)
+        return false;
+    paper->base = (int)floor(base_m(&before) / yb_paper_metres(paper->unit));
+    for (int i = 0; i < paper->contour_count; i++) {
+        double height_m = base_m(&before) + before.contour[i].height * old_m;
+        paper->contour[i].height = paper->contour[i].count > 1
+                                       ? yb_paper_line_height(paper, height_m)
+                                       : yb_paper_height(paper, height_m);
+    }
+    for (int i = 0; i < YB_CORNERS; i++)
+        paper->corner[i] = yb_paper_height(paper, base_m(&before) + before.corner[i] * old_m);
+    paper->frame = yb_paper_height(paper, base_m(&before) + before.frame * old_m);
+    return true;
+}
+
+size_t yb_paper_code(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits)
+{
+    if (paper->profile == YB_COMPACT)
+        return yb_compact_write(paper, code, room, bits);
+    size_t size = yb_paper_size(paper);
+    if (bits != NULL)
+        bits->all = (double)size * 8;
+    return size <= room && paper->point_count <= 255 ? yb_paper_write(paper, code) : 0;
+}
+
+bool yb_paper_fits(const yb_paper_t *paper, size_t most_bytes)
+{
+    uint8_t code[YB_PAPER_MOST_BYTES];
+    return yb_paper_code(paper, code, most_bytes, NULL) > 0;
+}
+
 yb_code_file_t *yb_paper_check(const yb_paper_t *paper, yb_error_t *error)
 {
     yb_paper_t counted = *paper;
-    uint8_t code[YB_MAX_CODE_BYTES];
-    size_t size = yb_paper_write(&counted, code);
+    uint8_t code[YB_PAPER_MOST_BYTES];
+    size_t size = yb_paper_code(&counted, code, sizeof(code), NULL);
     if (size == 0) {
         yb_error_set(error, "the contours do not fit the format");
         return NULL;
@@ -255,5 +330,6 @@ yb_code_file_t *yb_paper_check(const yb_paper_t *paper, yb_error_t *error)
         return file;
     counted.vertices = file->map.vertex_count;
     yb_code_file_free(file);
-    return yb_code_file_from_bytes("the new code", code, yb_paper_write(&counted, code), error);
+    size = yb_paper_code(&counted, code, sizeof(code), NULL);
+    return yb_code_file_from_bytes("the new code", code, size, error);
 }

@@ -16,8 +16,9 @@
 
 enum {
     YB_PAPER_CONTOURS = 255,
-    YB_PAPER_POINTS = 255,
-    YB_CORNERS = 4
+    YB_PAPER_POINTS = 1023,
+    YB_CORNERS = 4,
+    YB_PAPER_MOST_BYTES = 4096
 };
 
 typedef struct {
@@ -26,7 +27,7 @@ typedef struct {
 
 typedef struct {
     uint16_t height; /* in units above the base */
-    uint8_t count;   /* points; 1 is a spot height */
+    uint16_t count;  /* points; 1 is a spot height */
     bool open;       /* from frame to frame */
 } yb_paper_contour_t;
 
@@ -36,6 +37,11 @@ typedef struct {
     uint16_t cell;       /* metres per step, as coded: yb_paper_unit */
     uint16_t unit;       /* metres per unit of height, as coded */
     int16_t base_m;
+    yb_profile_t profile;
+    uint8_t spacing;      /* compact: all points are multiples of it */
+    uint8_t interval;     /* compact: heights of lines are multiples of 2^interval units */
+    uint8_t vertex_class; /* compact: if vertices is 0 */
+    int base;             /* compact: in units, instead of base_m */
     uint8_t seed;
     uint8_t gain;      /* 32 is what the contours themselves suggest */
     uint8_t dimension; /* D = 1 + dimension/256 */
@@ -59,7 +65,35 @@ double yb_paper_metres(uint16_t coded);
 /* The height in units nearest to height_m. */
 uint16_t yb_paper_height(const yb_paper_t *paper, double height_m);
 
-/* Bytes of the whole code, check included. */
+/* The same for a line: a multiple of the interval. */
+uint16_t yb_paper_line_height(const yb_paper_t *paper, double height_m);
+
+/* What the bits of a code are spent on. */
+typedef enum {
+    YB_BITS_HEADER,       /* scale, lattice, base, roughness */
+    YB_BITS_FRAME,        /* heights of corners */
+    YB_BITS_STARTS,       /* where lines begin, and how many there are */
+    YB_BITS_HEIGHTS,      /* of lines */
+    YB_BITS_LENGTHS,      /* of steps, and where lines end */
+    YB_BITS_TURNS,        /* of steps */
+    YB_BITS_SPOT_PLACES,
+    YB_BITS_SPOT_HEIGHTS,
+    YB_BITS_KINDS
+} yb_bits_kind_t;
+
+/* Fractions of bits: what the decisions were worth. */
+typedef struct {
+    double of[YB_BITS_KINDS];
+    double all; /* with version, padding and check */
+} yb_bits_t;
+
+/* Writes the code by its profile; answers its size, or 0 if it does not fit the profile or the
+ * room. bits, which may be NULL, becomes its size with fractions of a bit, where it has such.
+ */
+size_t yb_paper_code(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits);
+bool yb_paper_fits(const yb_paper_t *paper, size_t most_bytes);
+
+/* Bytes of the whole code, check included, as a paper code. */
 size_t yb_paper_size(const yb_paper_t *paper);
 
 /* Writes the code; answers its size, or 0 if a difference or a count does not fit. Whether the
@@ -80,6 +114,13 @@ void yb_paper_remove(yb_paper_t *paper, int contour, int at);
 bool yb_paper_append(yb_paper_t *paper, uint16_t height, bool open, const yb_step_t *point,
                      int count);
 void yb_paper_drop(yb_paper_t *paper, int contour);
+
+/* Moves a contour to another place among the contours. */
+bool yb_paper_reorder(yb_paper_t *paper, int contour, int to);
+
+/* Rounds all heights to another unit. False: that is the unit already, or heights leave the range.
+ */
+bool yb_paper_rescale(yb_paper_t *paper, double unit_m);
 
 /* Index of a contour's first point. */
 int yb_paper_first(const yb_paper_t *paper, int contour);

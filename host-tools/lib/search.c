@@ -11,6 +11,10 @@ enum {
     MARGIN = 8
 };
 
+/* What a bit costs, in the relief's standard deviations: within the budget, and beyond it. */
+static double bit_cost = 1e-4;
+static double bit_fine = 2e-3;
+
 /* Where the search stands. */
 typedef struct {
     const yb_search_t *task;
@@ -78,16 +82,16 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* A move of up to `reach` steps in multiples of the lattice's difference. */
+/* A move of up to `reach` steps in multiples of the lattice's spacing. */
 static int random_move(state_t *state, double reach)
 {
-    int unit = 1 << state->next.shift;
+    int unit = state->next.spacing;
     return (int)lround(random_bell(state, 2 * reach) / unit) * unit;
 }
 
 static double reach_now(const state_t *state)
 {
-    return (1 << state->next.shift) * 1.5 + 40 * state->heat;
+    return state->next.spacing * 1.5 + 40 * state->heat;
 }
 
 static bool is_frame_end(const yb_paper_t *paper, int contour, int first, int point)
@@ -127,10 +131,9 @@ static bool change_point(state_t *state)
     yb_step_t *at = &paper->point[point];
     if (is_frame_end(paper, contour, first, point))
         return slide_end(state, at);
-    bool spot = paper->contour[contour].count == 1;
     double reach = reach_now(state);
-    int move_x = spot ? (int)lround(random_bell(state, 2 * reach)) : random_move(state, reach);
-    int move_y = spot ? (int)lround(random_bell(state, 2 * reach)) : random_move(state, reach);
+    int move_x = random_move(state, reach);
+    int move_y = random_move(state, reach);
     int x = at->x + move_x;
     int y = at->y + move_y;
     if (!is_inner(paper, x, y))
@@ -140,7 +143,7 @@ static bool change_point(state_t *state)
     return move_x != 0 || move_y != 0;
 }
 
-/* Moves a whole closed contour: the only way to change the remainders of its coordinates. */
+/* Moves a whole closed contour. */
 static bool change_place(state_t *state)
 {
     yb_paper_t *paper = &state->next;
@@ -150,8 +153,8 @@ static bool change_place(state_t *state)
     int contour = state->task->pinned + random_below(state, contours);
     if (paper->contour[contour].open)
         return false;
-    int x = (int)lround(random_bell(state, 6 + 20 * state->heat));
-    int y = (int)lround(random_bell(state, 6 + 20 * state->heat));
+    int x = random_move(state, 6 + 10 * state->heat);
+    int y = random_move(state, 6 + 10 * state->heat);
     int first = yb_paper_first(paper, contour);
     for (int i = first; i < first + paper->contour[contour].count; i++) {
         int new_x = paper->point[i].x + x;
@@ -163,11 +166,14 @@ static bool change_place(state_t *state)
     return x != 0 || y != 0;
 }
 
-static uint16_t moved_height(state_t *state, uint16_t height)
+/* By a multiple of `unit` that is not 0. */
+static uint16_t moved_height(state_t *state, uint16_t height, int unit)
 {
-    double std = state->task->grid->std_m / yb_paper_metres(state->next.unit);
-    double move = random_bell(state, std * (0.08 + 0.6 * state->heat));
-    return (uint16_t)clamp((int)lround(height + move), 0, UINT16_MAX);
+    double std = state->task->grid->std_m / yb_paper_metres(state->next.unit) / unit;
+    int move = (int)lround(random_bell(state, std * (0.08 + 0.6 * state->heat)));
+    if (move == 0)
+        move = random_below(state, 2) == 0 ? -1 : 1;
+    return (uint16_t)clamp(height + move * unit, 0, UINT16_MAX);
 }
 
 /* Index of the given level nearest to a height. */
@@ -184,7 +190,9 @@ static int nearest_level(const yb_search_t *task, double height)
 static uint16_t line_height(const state_t *state, double height)
 {
     const yb_search_t *task = state->task;
-    return task->levels > 0 ? task->level[nearest_level(task, height)] : (uint16_t)lround(height);
+    int interval = 1 << state->next.interval;
+    return task->levels > 0 ? task->level[nearest_level(task, height)]
+                            : (uint16_t)(lround(height / interval) * interval);
 }
 
 /* The next level above or below. */
@@ -207,7 +215,8 @@ static bool change_height(state_t *state)
     if (paper->contour[contour].count > 1 && state->task->levels > 0)
         *height = other_level(state, before);
     else
-        *height = moved_height(state, before);
+        *height = moved_height(state, before,
+                               paper->contour[contour].count > 1 ? 1 << paper->interval : 1);
     return *height != before;
 }
 
@@ -216,9 +225,9 @@ static bool change_corner(state_t *state)
     yb_paper_t *paper = &state->next;
     int corner = random_below(state, YB_CORNERS);
     if (paper->corners == 0)
-        paper->frame = moved_height(state, paper->frame);
+        paper->frame = moved_height(state, paper->frame, 1);
     else if ((paper->corners >> corner & 1) != 0)
-        paper->corner[corner] = moved_height(state, paper->corner[corner]);
+        paper->corner[corner] = moved_height(state, paper->corner[corner], 1);
     else
         return false;
     return true;
@@ -248,7 +257,7 @@ static bool add_point(state_t *state)
         return false;
     yb_step_t a = paper->point[point];
     yb_step_t b = paper->point[last ? first : point + 1];
-    int unit = 1 << paper->shift;
+    int unit = paper->spacing;
     double along = 0.3 + 0.4 * random_share(state);
     double side = random_bell(state, 0.6);
     double off_x = along * (b.x - a.x) - side * (b.y - a.y);
@@ -305,8 +314,10 @@ static yb_step_t wanted_place(state_t *state)
     int y = (int)lround(north_m / depth * paper->north + random_bell(state, 8));
     int margin_x = margin_of(paper->east);
     int margin_y = margin_of(paper->north);
-    return (yb_step_t){(uint8_t)clamp(x, margin_x, paper->east - margin_x),
-                       (uint8_t)clamp(y, margin_y, paper->north - margin_y)};
+    int unit = paper->spacing;
+    x = clamp(x, margin_x, paper->east - margin_x) / unit * unit;
+    y = clamp(y, margin_y, paper->north - margin_y) / unit * unit;
+    return (yb_step_t){(uint8_t)(x < unit ? unit : x), (uint8_t)(y < unit ? unit : y)};
 }
 
 static uint16_t true_height(const state_t *state, double x, double y)
@@ -333,7 +344,7 @@ static bool add_ring(state_t *state)
 {
     yb_paper_t *paper = &state->next;
     yb_step_t middle = wanted_place(state);
-    int unit = 1 << paper->shift;
+    int unit = paper->spacing;
     int count = 3 + random_below(state, 2);
     double radius = 8 + 50 * random_share(state);
     double turn = 6.2831853 * random_share(state);
@@ -355,7 +366,7 @@ static bool add_ring(state_t *state)
 static yb_step_t frame_place(state_t *state, int side)
 {
     yb_paper_t *paper = &state->next;
-    int unit = 1 << paper->shift;
+    int unit = paper->spacing;
     int along = side % 2 == 0 ? paper->east : paper->north;
     int at = (1 + random_below(state, (along - 1) / unit - 1)) * unit;
     switch (side) {
@@ -396,6 +407,62 @@ static bool transfer_crossing(state_t *state)
     return remove_contour(state) && add_crossing(state);
 }
 
+/* Another start or direction for a closed line, another direction for an open one: the surface
+ * stays, the size does not.
+ */
+static bool turn_line(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int contours = paper->contour_count - state->task->pinned;
+    if (contours <= 0)
+        return false;
+    int contour = state->task->pinned + random_below(state, contours);
+    int count = paper->contour[contour].count;
+    if (count < 2)
+        return false;
+    yb_step_t *point = &paper->point[yb_paper_first(paper, contour)];
+    yb_step_t before[YB_PAPER_POINTS];
+    memcpy(before, point, (size_t)count * sizeof(*point));
+    bool open = paper->contour[contour].open;
+    int from = open ? count - 1 : random_below(state, count);
+    bool back = open || random_below(state, 3) == 0;
+    for (int i = 0; i < count; i++)
+        point[i] = before[(from + (back ? count - i : i)) % count];
+    return true;
+}
+
+/* Another place in the order of the lines. */
+static bool reorder(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    int contours = paper->contour_count - state->task->pinned;
+    if (contours <= 1)
+        return false;
+    int contour = state->task->pinned + random_below(state, contours);
+    int to = state->task->pinned + random_below(state, contours);
+    return yb_paper_reorder(paper, contour, to);
+}
+
+/* Another unit of height: all heights are rounded to it. */
+static bool change_unit(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    if (paper->profile != YB_COMPACT || state->task->levels > 0)
+        return false;
+    return yb_paper_rescale(paper,
+                            yb_paper_metres(paper->unit) * exp2(random_bell(state, 0.7)));
+}
+
+/* Lifts or lowers all of it. */
+static bool change_base(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    if (paper->profile != YB_COMPACT || state->task->levels > 0)
+        return false;
+    paper->base += random_below(state, 2) == 0 ? -1 : 1;
+    return true;
+}
+
 /* Two changes in one. */
 static bool change_twice(state_t *state)
 {
@@ -413,45 +480,68 @@ static bool choose_change(state_t *state)
         {34, change_point},  {6, change_twice},   {5, change_place}, {14, change_height},
         {6, change_corner},  {1, toggle_corner},  {9, add_point},    {6, remove_point},
         {8, transfer_point}, {2, remove_contour}, {3, add_spot},     {2, transfer_spot},
-        {1, add_ring},       {1, transfer_ring},  {1, add_crossing}, {1, transfer_crossing}};
-    int ticket = random_below(state, 100);
+        {1, add_ring},       {1, transfer_ring},  {1, add_crossing}, {1, transfer_crossing},
+        {5, turn_line},      {3, reorder},        {1, change_unit},  {1, change_base}};
+    int ticket = random_below(state, 110);
     int i = 0;
     while (ticket >= changes[i].weight)
         ticket -= changes[i++].weight;
     return changes[i].fn(state);
 }
 
+/* What a code costs: how far it is from the truth, and so much for each bit. Codes that are a
+ * little too long are let by, for a fine: the way to a better one may lead over them.
+ */
+static double cost_of(state_t *state, const yb_paper_t *paper, bool *fits)
+{
+    uint8_t code[YB_PAPER_MOST_BYTES];
+    yb_bits_t bits;
+    size_t most = state->task->most_bytes;
+    size_t size = yb_paper_code(paper, code, most + most / 8, &bits);
+    if (size == 0)
+        return -1;
+    *fits = size <= most;
+    double score = yb_judge_score_m(state->task->judge, code, size);
+    double over = fmax(bits.all - 8.0 * (double)most, 0);
+    return score < 0 ? -1
+                     : score * exp(bit_cost * bits.all + bit_fine * over);
+}
+
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
 {
     state_t *state = calloc(1, sizeof(*state));
-    double best = yb_judge_score_m(search->judge, paper);
-    if (state == NULL || best < 0) {
-        free(state);
-        return best;
-    }
+    if (state == NULL)
+        return -1;
     state->task = search;
     state->random = search->seed;
     state->now = *paper;
     state->best = *paper;
-    double now = best;
-    for (long trial = 0; trial < search->trials; trial++) {
+    bool fits = false;
+    double now = cost_of(state, paper, &fits);
+    double best = now;
+    double hot=search->hot, cold=search->cold;
+    if (getenv("YB_HOT")) hot = atof(getenv("YB_HOT"));
+    if (getenv("YB_COLD")) cold = atof(getenv("YB_COLD"));
+    if (getenv("YB_BC")) bit_cost = atof(getenv("YB_BC"));
+    if (getenv("YB_BF")) bit_fine = atof(getenv("YB_BF"));
+    for (long trial = 0; trial < search->trials && best >= 0; trial++) {
         double done = (double)trial / (double)search->trials;
-        double heat = search->hot * pow(search->cold / search->hot, done);
+        double heat = hot * pow(cold / hot, done);
         state->heat = (1 - done) * (1 - done);
         if (search->progress != NULL && trial % 256 == 0)
             search->progress(search->context, done);
         state->next = state->now;
-        if (!choose_change(state) || yb_paper_size(&state->next) > search->most_bytes)
+        if (!choose_change(state))
             continue;
-        double next = yb_judge_score_m(search->judge, &state->next);
+        double next = cost_of(state, &state->next, &fits);
         if (next < 0)
             continue;
-        double worse = (next - now) / (heat * search->grid->std_m);
+        double worse = log(next / now) / heat;
         if (worse > 0 && random_share(state) >= exp(-worse))
             continue;
         state->now = state->next;
         now = next;
-        if (now < best) {
+        if (now < best && fits) {
             best = now;
             state->best = state->now;
         }

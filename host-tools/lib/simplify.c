@@ -120,12 +120,10 @@ int yb_simplify(const yb_line_t *line, double tolerance_m, int *kept)
     return count;
 }
 
-/* The value nearest to `wanted` that is `origin` plus a multiple of 2^shift, from low to high. */
-static int snap(double wanted, int origin, int shift, int low, int high)
+/* The multiple of `unit` nearest to `wanted`, from low to high. */
+static int snap(double wanted, int unit, int low, int high)
 {
-    int unit = 1 << shift;
-    int steps = (int)lround((wanted - origin) / unit);
-    int value = origin + steps * unit;
+    int value = (int)lround(wanted / unit) * unit;
     while (value < low)
         value += unit;
     while (value > high)
@@ -141,23 +139,6 @@ static wanted_t to_steps(const yb_lattice_t *lattice, const yb_place_t *place)
 {
     return (wanted_t){place->x_m / lattice->width_m * lattice->east,
                       place->y_m / lattice->depth_m * lattice->north};
-}
-
-/* Remainders of the coordinates of a line's points: those of its first point, but 0 where one of
- * the ends of an open line lies on that side of the frame (its size is a multiple of 2^shift).
- */
-static void origin_of(const yb_lattice_t *lattice, wanted_t first, wanted_t last, bool open,
-                      int origin[2])
-{
-    int unit = 1 << lattice->shift;
-    origin[0] = (int)lround(first.x) % unit;
-    origin[1] = (int)lround(first.y) % unit;
-    if (!open)
-        return;
-    if (first.x <= 0 || first.x >= lattice->east || last.x <= 0 || last.x >= lattice->east)
-        origin[0] = 0;
-    if (first.y <= 0 || first.y >= lattice->north || last.y <= 0 || last.y >= lattice->north)
-        origin[1] = 0;
 }
 
 /* Takes out points that repeat the one before, or lie on the way between their neighbours. */
@@ -183,19 +164,15 @@ int yb_simplify_to_lattice(const yb_line_t *line, double tolerance_m, const yb_l
     bool open = !line->closed && line->count > 1;
     if (count > room)
         count = 0;
-    int origin[2] = {0, 0};
-    if (count > 0)
-        origin_of(lattice, to_steps(lattice, &line->place[kept[0]]),
-                  to_steps(lattice, &line->place[kept[count - 1]]), open, origin);
     for (int i = 0; i < count; i++) {
         wanted_t at = to_steps(lattice, &line->place[kept[i]]);
         bool end = open && (i == 0 || i == count - 1);
         bool end_x = end && (at.x <= 0 || at.x >= lattice->east);
         bool end_y = end && (at.y <= 0 || at.y >= lattice->north);
         int x =
-            snap(at.x, origin[0], lattice->shift, end_x ? 0 : 1, lattice->east - (end_x ? 0 : 1));
+            snap(at.x, lattice->spacing, end_x ? 0 : 1, lattice->east - (end_x ? 0 : 1));
         int y =
-            snap(at.y, origin[1], lattice->shift, end_y ? 0 : 1, lattice->north - (end_y ? 0 : 1));
+            snap(at.y, lattice->spacing, end_y ? 0 : 1, lattice->north - (end_y ? 0 : 1));
         point[i] = (yb_step_t){(uint8_t)x, (uint8_t)y};
     }
     free(kept);

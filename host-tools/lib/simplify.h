@@ -17,11 +17,11 @@ int yb_simplify(const yb_line_t *line, double tolerance_m, int *kept);
 /* How metres on the frame become lattice steps. */
 typedef struct {
     double width_m, depth_m;
-    int east, north, shift;
+    int east, north, spacing;
 } yb_lattice_t;
 
-/* Simplifies a line and lays it on the lattice: points of one line differ by multiples of
- * 2^shift, the ends of an open one lie on the frame, all others inside. Answers how many points, at
+/* Simplifies a line and lays it on the lattice: all points are multiples of
+ * the spacing, the ends of an open one lie on the frame, all others inside. Answers how many points, at
  * most `room`; 0 if the line collapses or needs more.
  */
 int yb_simplify_to_lattice(const yb_line_t *line, double tolerance_m, const yb_lattice_t *lattice,

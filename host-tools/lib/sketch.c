@@ -9,17 +9,19 @@ enum {
 };
 
 void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double low_m, double high_m,
-                     int shift)
+                     int spacing)
 {
     memset(paper, 0, sizeof(*paper));
-    int unit = 1 << shift;
+    int unit = spacing;
     int longest = MOST_STEPS / unit * unit;
     double cell_m = fmax(width_m, depth_m) / longest;
     int east = (int)lround(width_m / cell_m / unit) * unit;
     int north = (int)lround(depth_m / cell_m / unit) * unit;
     paper->east = (uint8_t)(east < 2 * unit ? 2 * unit : east);
     paper->north = (uint8_t)(north < 2 * unit ? 2 * unit : north);
-    paper->shift = (uint8_t)shift;
+    paper->spacing = (uint8_t)spacing;
+    while (1 << paper->shift < spacing)
+        paper->shift++;
     paper->cell = yb_paper_unit(cell_m);
     double range_m = high_m - low_m;
     double lowest_m = floor(low_m - range_m / 2);
@@ -37,13 +39,16 @@ void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double l
 bool yb_sketch_spot(yb_paper_t *paper, const yb_lines_t *frame, yb_place_t at, double height_m,
                     size_t most_bytes)
 {
-    double x = fmin(fmax(round(at.x_m / frame->width_m * paper->east), 1), paper->east - 1);
-    double y = fmin(fmax(round(at.y_m / frame->depth_m * paper->north), 1), paper->north - 1);
+    double unit = paper->spacing;
+    double x = round(at.x_m / frame->width_m * paper->east / unit) * unit;
+    double y = round(at.y_m / frame->depth_m * paper->north / unit) * unit;
+    x = fmin(fmax(x, unit), paper->east - unit);
+    y = fmin(fmax(y, unit), paper->north - unit);
     yb_step_t point = {(uint8_t)x, (uint8_t)y};
     if (!yb_simplify_fits(paper, &point, 1, false) ||
         !yb_paper_append(paper, yb_paper_height(paper, height_m), false, &point, 1))
         return false;
-    if (yb_paper_size(paper) <= most_bytes)
+    if (yb_paper_fits(paper, most_bytes))
         return true;
     yb_paper_drop(paper, paper->contour_count - 1);
     return false;
@@ -55,12 +60,9 @@ static bool append_line(yb_paper_t *paper, double height_m, const yb_step_t *poi
 {
     yb_paper_t before = *paper;
     if (yb_simplify_fits(paper, point, count, open) &&
-        yb_paper_append(paper, yb_paper_height(paper, height_m), open, point, count) &&
-        yb_paper_split(paper) && yb_paper_size(paper) <= most_bytes) {
-        uint8_t code[YB_MAX_CODE_BYTES];
-        if (yb_paper_write(paper, code) > 0)
-            return true;
-    }
+        yb_paper_append(paper, yb_paper_line_height(paper, height_m), open, point, count) &&
+        yb_paper_split(paper) && yb_paper_fits(paper, most_bytes))
+        return true;
     *paper = before;
     return false;
 }
@@ -72,7 +74,7 @@ int yb_sketch_lines(yb_paper_t *paper, const yb_lines_t *lines, double tolerance
                             .depth_m = lines->depth_m,
                             .east = paper->east,
                             .north = paper->north,
-                            .shift = paper->shift};
+                            .spacing = paper->spacing};
     int added = 0;
     for (int i = 0; i < lines->count; i++) {
         const yb_line_t *line = &lines->line[i];

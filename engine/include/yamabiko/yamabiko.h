@@ -65,6 +65,19 @@ extern "C" {
 /* The one version of the format (bytes and reconstruction) that this engine reads. */
 #define YB_FORMAT_VERSION 2
 
+/* How the relief is coded: the low nibble of the first byte. */
+typedef enum {
+    YB_PAPER,  /* as in the paper of 1985, plain bits */
+    YB_COMPACT /* the same contours in about half as many */
+} yb_profile_t;
+
+/* Sections that may follow the relief (docs/SPEC.md 1.4). */
+enum {
+    YB_SECTION_CERTIFICATE = 1,
+    YB_SECTION_PLACE = 2,
+    YB_SECTION_NAME = 3
+};
+
 /* --- Limits ----------------------------------------------------------------------------------- */
 
 #define YB_MAX_TRIANGLES (2 * YB_MAX_VERTICES)
@@ -137,6 +150,8 @@ typedef struct {
     uint16_t unit;     /* metres per unit of coded height, as coded */
     int16_t base_m;    /* metres above the datum of z = 0 */
     uint8_t seed;
+    uint8_t certified_error; /* 0: nobody says; else see yb_certified_error_m … */
+    uint8_t certified_k;     /* K in 1/256 of the lines, if certified_error is not 0 */
     uint8_t hurst_q8m1; /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
     bool smooth;        /* midpoints follow the slopes of the ends */
     bool detail;        /* midpoints move by noise; clear it to get the smooth part alone */
@@ -157,6 +172,13 @@ typedef struct {
     bool open;        /* its ends lie on the frame */
 } yb_contour_t;
 
+/* A step from point to point: its greater difference n, and where on the square of that radius it
+ * ends, 0 … 8n - 1, counter-clockwise from the east. Private to the compact profile.
+ */
+typedef struct {
+    int16_t length, place;
+} yb_ring_t;
+
 /* A point of a skeleton. Private to loading. */
 typedef struct {
     yb_index_t parent; /* the point it was reached from */
@@ -176,20 +198,38 @@ typedef struct {
     uint16_t first_summit;   /* vertices from here on are summits that were added … */
     uint16_t first_saddle;   /* … from here on link points … */
     uint16_t first_skeleton; /* … and from here on points of skeletons */
-    /* private: the decoder */
-    uint8_t state;
+    uint16_t relief_size; /* bytes of the code before its sections, or its check byte */
+    uint8_t profile;
+    /* private: the decoder (code.c) */
+    uint8_t part;
     uint8_t crc;
+    uint8_t section;
+    uint16_t section_at, section_size;
+    uint16_t size;
+    yb_status_t result;
+    /* private: both profiles */
+    uint8_t state;
+    uint8_t gain;
+    uint16_t at; /* how far the state has come; the element's model */
+    uint16_t point_count;
+    uint16_t vertices_promised;
+    /* private: the paper profile (paper.c) */
     uint8_t flags;
     uint8_t bits_held;
     uint32_t bits;
-    uint16_t at; /* how far the state has come */
-    uint16_t point_count;
-    uint16_t vertices_promised;
-    uint8_t gain;
-    yb_status_t result;
+    uint8_t header[14];
+    /* private: the compact profile (compact.c) */
+    uint8_t element, classes, left;
+    uint8_t spacing, shape, interval;
+    uint8_t sector, turn_context, length_context, corner_at;
+    bool open;
+    uint16_t value, recent, lines, spots, run;
+    int16_t x, y, start_x, start_y, way, length, height;
+    yb_ring_t last; /* step */
+    int32_t base;
+    uint32_t range, code, cell;
     int32_t corner_height[4];
     int32_t frame_height;
-    uint8_t header[16];
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
     yb_contour_t contour[YB_MAX_CONTOURS];
     /* private: the triangulation */
@@ -198,7 +238,10 @@ typedef struct {
     /* private: the rules */
     yb_index_t scratch[YB_MAX_CONTOURS + 1]; /* of a region */
     yb_index_t group[YB_MAX_CONTOURS];
-    yb_branch_t branch[YB_MAX_VERTICES];
+    union {
+        yb_branch_t branch[YB_MAX_VERTICES];
+        uint16_t model[128]; /* of the compact profile */
+    };
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
 } yb_load_t;
 

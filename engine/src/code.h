@@ -1,0 +1,27 @@
+/* The decoder's parts: the container (code.c) and the two profiles of what it holds.
+ *
+ *     yb_map_feed ─► first byte ─┬─► paper_take ───┬─► sections ─► check ─► yb_map_build
+ *                                └─► compact_take ─┘
+ */
+#ifndef YB_CODE_H
+#define YB_CODE_H
+
+#include <yamabiko/yamabiko.h>
+
+/* A section begins with a byte: is it the last one, which is it, how long (15: two bytes say). */
+enum {
+    SECTION_LAST = 0x80,
+    SECTION_LONG = 15
+};
+
+/* Each takes the next byte of the relief. YB_MORE until the byte that ends it, then YB_OK: for the
+ * paper profile that is its last byte, for the compact one the first byte after it.
+ */
+YB_MUST_CHECK yb_status_t paper_take(yb_map_t *map, yb_load_t *load, uint8_t byte);
+YB_MUST_CHECK yb_status_t compact_take(yb_map_t *map, yb_load_t *load, uint8_t byte);
+
+/* Get ready for the byte after the first one. */
+void paper_begin(yb_load_t *load);
+void compact_begin(yb_load_t *load);
+
+#endif

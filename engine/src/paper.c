@@ -1,0 +1,201 @@
+/* The paper profile: a header of whole bytes, a body of 12N + 20M + 8 bits (docs/SPEC.md 1.1, 1.2).
+ * A state is one kind of field; bytes enter a bit buffer and a state runs when its bits are there.
+ */
+#include "code.h"
+#include "mesh.h"
+
+enum state {
+    HEADER,
+    FRAME_HEIGHTS,
+    COUNTS,
+    DIMENSION,
+    HEIGHT,
+    START,
+    STEP,
+    END
+};
+
+enum {
+    HEADER_BYTES = 14,
+    FLAG_STRAIGHT = 4,
+    FLAG_RESERVED = 8
+};
+
+/* Height in q8 of a coded one: units times metres per unit over metres per step, rounded.
+ * 2^16 * 2^12 * 2^15 * 2^8 = 2^51 fits easily; the divisor is at least 1.
+ */
+static int32_t height_q8(const yb_map_t *map, uint32_t coded)
+{
+    uint64_t cell = yb_unit_64th_m(map->cell);
+    uint64_t height = ((uint64_t)coded * yb_unit_64th_m(map->unit) * 256 + cell / 2) / cell;
+    return height > YB_MAX_HEIGHT_Q8 ? -1 : (int32_t)height;
+}
+
+static yb_status_t take_header(yb_map_t *map, yb_load_t *load, uint8_t byte)
+{
+    const uint8_t *h = load->header;
+    load->header[load->at++] = byte;
+    if (load->at < HEADER_BYTES)
+        return YB_MORE;
+    load->flags = h[1];
+    load->contour_count = h[2];
+    load->vertices_promised = h[3];
+    map->east_q8 = (uint16_t)(h[4] << 8);
+    map->north_q8 = (uint16_t)(h[5] << 8);
+    map->cell = (uint16_t)(h[6] << 8 | h[7]);
+    map->unit = (uint16_t)(h[8] << 8 | h[9]);
+    map->base_m = (int16_t)(h[10] << 8 | h[11]);
+    map->seed = h[12];
+    load->gain = h[13];
+    map->smooth = (load->flags & FLAG_STRAIGHT) == 0;
+    if ((load->flags & FLAG_RESERVED) != 0 || h[3] < 4 || h[4] == 0 || h[5] == 0 ||
+        (map->cell & 0xfff) == 0 || (map->unit & 0xfff) == 0)
+        return YB_ERR_CORRUPT;
+#if YB_MAX_VERTICES < 255
+    if (load->vertices_promised > YB_MAX_VERTICES)
+        return YB_ERR_LIMIT;
+#endif
+    load->at = 0;
+    load->state = FRAME_HEIGHTS;
+    return YB_MORE;
+}
+
+/* One height per coded corner, or, if none is coded, one for the whole frame. */
+static yb_status_t take_frame_height(yb_map_t *map, yb_load_t *load, uint32_t coded)
+{
+    uint32_t corners = load->flags >> 4; /* SW SE NE NW from bit 3 down */
+    int32_t height = height_q8(map, coded);
+    if (height < 0)
+        return YB_ERR_CORRUPT;
+    if (corners == 0) {
+        load->frame_height = height;
+    } else {
+        while ((corners & 8u >> load->at) == 0)
+            load->at++;
+        load->corner_height[load->at++] = height;
+        if ((corners << load->at & 15) != 0)
+            return YB_MORE;
+    }
+    load->at = 0;
+    load->state = load->contour_count > 0 ? COUNTS : DIMENSION;
+    return YB_MORE;
+}
+
+static yb_status_t take_count(yb_load_t *load, uint32_t count)
+{
+    yb_contour_t *contour = &load->contour[load->at++];
+    contour->first = (yb_index_t)load->point_count;
+    contour->count = (yb_index_t)count;
+    load->point_count = (uint16_t)(load->point_count + count);
+    if (count == 0 || load->point_count > load->vertices_promised)
+        return YB_ERR_CORRUPT;
+    if (load->at == load->contour_count) {
+        load->at = 0;
+        load->state = DIMENSION;
+    }
+    return YB_MORE;
+}
+
+/* The body has ended: what is left of its last byte must be zero. */
+static yb_status_t end_body(yb_load_t *load)
+{
+    if ((load->bits & ((1u << load->bits_held) - 1)) != 0)
+        return YB_ERR_CORRUPT;
+    load->state = END;
+    return YB_OK;
+}
+
+static yb_status_t take_dimension(yb_map_t *map, yb_load_t *load, uint32_t d)
+{
+    map->hurst_q8m1 = (uint8_t)(255 - d); /* H = 2 - D = (256 - d) / 256 */
+    load->state = HEIGHT;
+    return load->contour_count > 0 ? YB_MORE : end_body(load);
+}
+
+/* A point has come: it lies in the frame or the code is corrupt. */
+static yb_status_t take_point(yb_map_t *map, yb_load_t *load, int32_t x, int32_t y)
+{
+    if (x < 0 || y < 0 || x > map->east_q8 >> 8 || y > map->north_q8 >> 8)
+        return YB_ERR_CORRUPT;
+    const yb_contour_t *contour = &load->contour[load->at];
+    yb_vertex_t *point = &map->vertex[map->vertex_count];
+    point->x_q8 = (uint16_t)(x << 8);
+    point->y_q8 = (uint16_t)(y << 8);
+    point->z_q8 = map->vertex[contour->first].z_q8;
+    map->vertex_count++;
+    load->state = STEP;
+    if (map->vertex_count < contour->first + contour->count)
+        return YB_MORE;
+    load->at++;
+    load->state = HEIGHT;
+    return load->at < load->contour_count ? YB_MORE : end_body(load);
+}
+
+static yb_status_t take_height(yb_map_t *map, yb_load_t *load, uint32_t coded)
+{
+    int32_t height = height_q8(map, coded);
+    if (height < 0)
+        return YB_ERR_CORRUPT;
+    map->vertex[map->vertex_count].z_q8 = height;
+    load->state = START;
+    return YB_MORE;
+}
+
+/* Six bits as a signed number, times the coded shift. */
+static int32_t difference(const yb_load_t *load, uint32_t six)
+{
+    return ((int32_t)(six & 63) - ((six & 32) != 0 ? 64 : 0)) * (1 << (load->flags & 3));
+}
+
+static yb_status_t take_step(yb_map_t *map, yb_load_t *load, uint32_t twelve)
+{
+    const yb_vertex_t *last = &map->vertex[map->vertex_count - 1];
+    return take_point(map, load, (last->x_q8 >> 8) + difference(load, twelve >> 6),
+                      (last->y_q8 >> 8) + difference(load, twelve));
+}
+
+static yb_status_t take_field(yb_map_t *map, yb_load_t *load, uint32_t field)
+{
+    switch ((enum state)load->state) {
+    case HEADER:
+        return take_header(map, load, (uint8_t)field);
+    case FRAME_HEIGHTS:
+        return take_frame_height(map, load, field);
+    case COUNTS:
+        return take_count(load, field);
+    case DIMENSION:
+        return take_dimension(map, load, field);
+    case HEIGHT:
+        return take_height(map, load, field);
+    case START:
+        return take_point(map, load, (int32_t)(field >> 8), (int32_t)(field & 255));
+    case STEP:
+        return take_step(map, load, field);
+    case END:
+        break;
+    }
+    return YB_ERR_CORRUPT;
+}
+
+void paper_begin(yb_load_t *load)
+{
+    load->at = 1; /* of the header */
+    load->section = SECTION_LAST; /* none follow */
+}
+
+yb_status_t paper_take(yb_map_t *map, yb_load_t *load, uint8_t byte)
+{
+    static const uint8_t width[] = {
+        [HEADER] = 8, [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8,
+        [HEIGHT] = 16, [START] = 16, [STEP] = 12, [END] = 8,
+    };
+    load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
+    load->bits_held = (uint8_t)(load->bits_held + 8);
+    yb_status_t status = YB_MORE;
+    while (status == YB_MORE && load->bits_held >= width[load->state]) {
+        uint32_t bits = width[load->state];
+        load->bits_held = (uint8_t)(load->bits_held - bits);
+        status = take_field(map, load, load->bits >> load->bits_held & ((1u << bits) - 1));
+    }
+    return status;
+}

@@ -1,0 +1,558 @@
+#include "compact_code.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model.h"
+
+/* Lattice steps that the end of an open line may lie outside. */
+enum {
+    MOST_BEYOND = 12
+};
+
+/* The range coder's other side: what is written is a number of as many bytes as have begun, to
+ * whose end the parts of the interval are added.
+ */
+typedef struct {
+    uint8_t *code;
+    size_t size, room;
+    uint32_t range;
+    uint16_t model[MODELS];
+    yb_bits_t *bits; /* may be NULL */
+    yb_bits_kind_t kind;
+    bool failed;
+} coder_t;
+
+/* Where a line's writing stands, in lattice steps. */
+typedef struct {
+    int x, y;
+    yb_ring_t last;
+    int turn_context, length_context;
+} pen_t;
+
+/* Notes a decision that narrows the interval to `share`. */
+static void spend(coder_t *coder, double share)
+{
+    if (coder->bits != NULL)
+        coder->bits->of[coder->kind] -= log2(share);
+}
+
+static void add(coder_t *coder, uint32_t value)
+{
+    size_t at = coder->size;
+    uint32_t carry = value;
+    while (carry != 0 && at > 0) {
+        carry += coder->code[--at];
+        coder->code[at] = (uint8_t)carry;
+        carry >>= 8;
+    }
+}
+
+static void begin_byte(coder_t *coder)
+{
+    if (coder->size >= coder->room) {
+        coder->failed = true;
+        return;
+    }
+    coder->code[coder->size++] = 0;
+}
+
+static void narrow(coder_t *coder, uint32_t from, uint32_t range)
+{
+    add(coder, from);
+    coder->range = range;
+    while (coder->range < RANGE_LEAST) {
+        begin_byte(coder);
+        coder->range <<= 8;
+    }
+}
+
+static void put_bit(coder_t *coder, int model, int bit)
+{
+    uint32_t range = coder->range;
+    uint32_t bound = model_bound(coder->model[model], range);
+    coder->model[model] = model_learn(coder->model[model], bit);
+    spend(coder, (double)(bit != 0 ? range - bound : bound) / range);
+    if (bit != 0)
+        narrow(coder, bound, range - bound);
+    else
+        narrow(coder, 0, bound);
+}
+
+static void put_uniform(coder_t *coder, int value, int count)
+{
+    if (value < 0 || value >= count) {
+        coder->failed = true;
+        return;
+    }
+    uint32_t part = coder->range / (uint32_t)count;
+    spend(coder, (double)part / coder->range);
+    narrow(coder, (uint32_t)value * part, part);
+}
+
+static void put_number(coder_t *coder, int model, int value)
+{
+    int class = 0;
+    while (value + 1 >= 2 << class)
+        class ++;
+    if (value < 0 || class > MOST_CLASS) {
+        coder->failed = true;
+        return;
+    }
+    for (int i = 0; i < class; i++)
+        put_bit(coder, model + fix_min(i, NUMBER_MODELS - 1), 1);
+    if (class < MOST_CLASS)
+        put_bit(coder, model + fix_min(class, NUMBER_MODELS - 1), 0);
+    for (int i = class - 1; i >= 0; i--)
+        put_uniform(coder, (value + 1) >> i & 1, 2);
+}
+
+static void put_signed(coder_t *coder, int model, int value)
+{
+    put_number(coder, model, value < 0 ? -2 * value - 1 : 2 * value);
+}
+
+static void put_difference(coder_t *coder, int model, int down, int value)
+{
+    put_number(coder, model, abs(value));
+    if (value != 0)
+        put_bit(coder, down, value < 0);
+}
+
+uint16_t yb_compact_cell(double metres)
+{
+    double scaled = metres * 64;
+    int exponent = 0;
+    while (exponent < 14 && scaled >= 511.5) {
+        scaled /= 2;
+        exponent++;
+    }
+    long mantissa = lround(fmin(fmax(scaled, 1), 511));
+    return (uint16_t)((unsigned)exponent << 12 | (unsigned)mantissa);
+}
+
+uint16_t yb_compact_unit(double metres)
+{
+    double scaled = metres * 64;
+    int exponent = 0;
+    while (exponent < 15 && scaled >= 31.5) {
+        scaled /= 2;
+        exponent++;
+    }
+    long mantissa = lround(fmin(fmax(scaled, 16), 31));
+    return (uint16_t)((unsigned)exponent << 12 | (unsigned)mantissa);
+}
+
+static int gain_value(int coded)
+{
+    return coded == 0 ? 0 : (coded % 2 != 0 ? 181 : 128) >> (7 - coded / 2);
+}
+
+static int coded_gain(double gain)
+{
+    int best = 0;
+    for (int i = 1; i < 16; i++)
+        if (fabs(gain_value(i) - gain) < fabs(gain_value(best) - gain))
+            best = i;
+    return best;
+}
+
+uint8_t yb_compact_gain(double gain)
+{
+    return (uint8_t)gain_value(coded_gain(gain));
+}
+
+uint8_t yb_compact_dimension(uint8_t dimension)
+{
+    int eighth = (dimension + 4) / 8;
+    return (uint8_t)(8 * (eighth > 31 ? 31 : eighth));
+}
+
+static int columns_of(const yb_paper_t *paper)
+{
+    return paper->east / paper->spacing;
+}
+
+static int rows_of(const yb_paper_t *paper)
+{
+    return paper->north / paper->spacing;
+}
+
+static void put_shape(coder_t *coder, const yb_paper_t *paper)
+{
+    int most = 255 / paper->spacing;
+    int columns = columns_of(paper);
+    int rows = rows_of(paper);
+    if (fix_max(columns, rows) != most)
+        coder->failed = true;
+    put_uniform(coder, rows < columns ? 1 : columns < rows ? 2 : 0, 3);
+    if (rows != columns)
+        put_uniform(coder, fix_min(columns, rows) - 1, most);
+}
+
+/* Least v with so many vertices within its class. */
+static int vertex_class(int vertices)
+{
+    if (vertices <= 256)
+        return (fix_max(vertices, 1) - 1) / 32;
+    int class = 8;
+    while (class < 15 && 512 << (class - 8) < vertices)
+        class ++;
+    return class;
+}
+
+/* The base is the height of the first line, or of the frame. */
+static int zero_of(const yb_paper_t *paper)
+{
+    for (int i = 0; i < paper->contour_count; i++)
+        if (paper->contour[i].count > 1)
+            return paper->contour[i].height;
+    return paper->frame;
+}
+
+static void put_header(coder_t *coder, const yb_paper_t *paper)
+{
+    int base = paper->base + zero_of(paper);
+    int exponent = paper->cell >> 12;
+    int mantissa = paper->cell & 0xfff;
+    bool small = exponent == 0 && mantissa < 256;
+    put_uniform(coder, small ? 0 : exponent + 1, 16);
+    put_uniform(coder, small ? mantissa : mantissa - 256, 256);
+    put_uniform(coder, paper->spacing - 1, 16);
+    put_shape(coder, paper);
+    put_uniform(coder, paper->unit >> 12, 16);
+    put_uniform(coder, (paper->unit & 0xfff) - 16, 16);
+    put_uniform(coder, paper->interval, 4);
+    put_number(coder, MODEL_BASE, abs(base));
+    if (base != 0)
+        put_uniform(coder, base < 0, 2);
+    put_uniform(coder, paper->dimension / 8, 32);
+    put_uniform(coder, coded_gain(paper->gain), 16);
+    put_uniform(coder, paper->straight, 2);
+    put_uniform(coder, paper->vertices > 0 ? vertex_class(paper->vertices) : paper->vertex_class,
+                16);
+}
+
+/* Height of the point nearest to (x, y), in steps, of those written: the first `lines` contours
+ * that are lines in the draft's order, then spot heights in the order given.
+ */
+typedef struct {
+    int x, y, height;
+} known_t;
+
+typedef struct {
+    known_t *point;
+    int count;
+    int zero; /* height of the base */
+} known_points_t;
+
+static int height_near(const known_points_t *known, int x, int y)
+{
+    int nearest = INT32_MAX;
+    int height = known->zero;
+    for (int i = 0; i < known->count; i++) {
+        int dx = known->point[i].x - x;
+        int dy = known->point[i].y - y;
+        int d = dx * dx + dy * dy;
+        if (d < nearest) {
+            nearest = d;
+            height = known->point[i].height;
+        }
+    }
+    return height;
+}
+
+static void know(known_points_t *known, yb_step_t at, int height)
+{
+    known->point[known->count++] = (known_t){at.x, at.y, height};
+}
+
+/* Lattice steps along the frame, counter-clockwise from the south-west. */
+static int way_of(const yb_paper_t *paper, int x, int y)
+{
+    int east = columns_of(paper);
+    int north = rows_of(paper);
+    if (y == 0)
+        return x;
+    if (x == east)
+        return east + y;
+    if (y == north)
+        return 2 * east + north - x;
+    return 2 * (east + north) - y;
+}
+
+static yb_ring_t inward(const yb_paper_t *paper, int x, int y)
+{
+    int way = way_of(paper, x, y);
+    int east = columns_of(paper);
+    int north = rows_of(paper);
+    int place = way < east ? 2 : way < east + north ? 4 : way < 2 * east + north ? 6 : 0;
+    return (yb_ring_t){1, (int16_t)place};
+}
+
+static void put_step(coder_t *coder, pen_t *pen, int dx, int dy)
+{
+    yb_ring_t ring = ring_of(dx, dy);
+    int n = ring.length;
+    if (n == 0) {
+        coder->failed = true;
+        return;
+    }
+    int turn = (ring.place - ring_ahead(pen->last, n) % (8 * n) + 8 * n) % (8 * n);
+    int sector = turn / n;
+    coder->kind = YB_BITS_LENGTHS;
+    put_number(coder, MODEL_LENGTH + pen->length_context * NUMBER_MODELS, n - 1);
+    coder->kind = YB_BITS_TURNS;
+    int model = MODEL_TURN + pen->turn_context * TURN_MODELS - 1;
+    for (int node = 1, bit = 2; bit >= 0; bit--) {
+        put_bit(coder, model + node, sector >> bit & 1);
+        node = node << 1 | (sector >> bit & 1);
+    }
+    put_uniform(coder, turn % n, n);
+    pen->last = ring;
+    pen->turn_context = turn_context(sector);
+    pen->length_context = length_context(n);
+    pen->x += dx;
+    pen->y += dy;
+}
+
+/* Bits that a decision would cost. */
+static double bit_price(const coder_t *coder, int model, int bit)
+{
+    double zero = coder->model[model] / 65536.0;
+    return -log2(bit != 0 ? 1 - zero : zero);
+}
+
+/* Bits that a step would cost, but for those that all steps of its length cost alike. */
+static double step_price(const coder_t *coder, const pen_t *pen, int dx, int dy)
+{
+    yb_ring_t ring = ring_of(dx, dy);
+    int n = ring.length;
+    int sector = (ring.place - ring_ahead(pen->last, n) % (8 * n) + 8 * n) % (8 * n) / n;
+    double bits = log2(n);
+    int class = fix_log2_floor((uint32_t)n);
+    int model = MODEL_LENGTH + pen->length_context * NUMBER_MODELS;
+    for (int i = 0; i <= class; i++)
+        bits += bit_price(coder, model + fix_min(i, NUMBER_MODELS - 1), i < class) + (i < class);
+    model = MODEL_TURN + pen->turn_context * TURN_MODELS - 1;
+    for (int node = 1, bit = 2; bit >= 0; bit--) {
+        bits += bit_price(coder, model + node, sector >> bit & 1);
+        node = node << 1 | (sector >> bit & 1);
+    }
+    return bits;
+}
+
+/* An open line ends where it would leave the map, so its last step may go beyond: by what is
+ * cheapest.
+ */
+static void put_last_step(coder_t *coder, const yb_paper_t *paper, pen_t *pen, int dx, int dy)
+{
+    int x = pen->x + dx;
+    int y = pen->y + dy;
+    int out_x = x == 0 ? -1 : x == columns_of(paper) ? 1 : 0;
+    int out_y = y == 0 ? -1 : y == rows_of(paper) ? 1 : 0;
+    int best = 0;
+    double least = step_price(coder, pen, dx, dy);
+    for (int beyond = 1; beyond <= MOST_BEYOND; beyond++) {
+        double price = step_price(coder, pen, dx + beyond * out_x, dy + beyond * out_y);
+        if (price < least) {
+            least = price;
+            best = beyond;
+        }
+    }
+    put_step(coder, pen, dx + best * out_x, dy + best * out_y);
+}
+
+typedef struct {
+    int x, y, way; /* of the line before */
+} starts_t;
+
+static void put_start(coder_t *coder, const yb_paper_t *paper, pen_t *pen, starts_t *starts,
+                      bool open)
+{
+    coder->kind = YB_BITS_STARTS;
+    put_bit(coder, MODEL_CLOSED, open);
+    *pen = (pen_t){.x = pen->x, .y = pen->y, .last = {1, 0}, .turn_context = TURN_FIRST};
+    if (!open) {
+        put_signed(coder, MODEL_START, pen->x - starts->x);
+        put_signed(coder, MODEL_START, pen->y - starts->y);
+        starts->x = pen->x;
+        starts->y = pen->y;
+        return;
+    }
+    int round = 2 * (columns_of(paper) + rows_of(paper));
+    int way = way_of(paper, pen->x, pen->y);
+    int ahead = (way - starts->way + round) % round;
+    put_signed(coder, MODEL_WAY, ahead > round / 2 ? ahead - round : ahead);
+    starts->way = way;
+    pen->last = inward(paper, pen->x, pen->y);
+    pen->turn_context = TURN_INWARD;
+}
+
+static void put_line(coder_t *coder, const yb_paper_t *paper, int contour, int first,
+                     starts_t *starts, known_points_t *known)
+{
+    const yb_paper_contour_t *line = &paper->contour[contour];
+    const yb_step_t *point = &paper->point[first];
+    int spacing = paper->spacing;
+    pen_t pen = {.x = point->x / spacing, .y = point->y / spacing};
+    int start_x = pen.x;
+    int start_y = pen.y;
+    put_start(coder, paper, &pen, starts, line->open);
+    int off = (int)line->height - height_near(known, point->x, point->y);
+    if (off % (1 << paper->interval) != 0)
+        coder->failed = true;
+    coder->kind = YB_BITS_HEIGHTS;
+    put_difference(coder, MODEL_LINE_HEIGHT, MODEL_LINE_DOWN, off / (1 << paper->interval));
+    for (int i = 1; i < line->count && !coder->failed; i++) {
+        int dx = point[i].x / spacing - pen.x;
+        int dy = point[i].y / spacing - pen.y;
+        if (line->open && i == line->count - 1 && (dx != 0 || dy != 0))
+            put_last_step(coder, paper, &pen, dx, dy);
+        else
+            put_step(coder, &pen, dx, dy);
+        int away = fix_max(abs(pen.x - start_x), abs(pen.y - start_y));
+        coder->kind = YB_BITS_LENGTHS;
+        if (!line->open && i >= 2)
+            put_bit(coder, MODEL_END + (away <= 2 * pen.last.length ? 1 : 0),
+                    i == line->count - 1);
+    }
+    for (int i = 0; i < line->count; i++)
+        know(known, point[i], line->height);
+}
+
+static void put_corners(coder_t *coder, const yb_paper_t *paper, const known_points_t *known)
+{
+    coder->kind = YB_BITS_FRAME;
+    for (int i = 0; i < YB_CORNERS; i++) {
+        int coded = paper->corners >> i & 1;
+        put_bit(coder, MODEL_CORNER, coded);
+        int x = i == 1 || i == 2 ? paper->east : 0;
+        int y = i >= 2 ? paper->north : 0;
+        if (coded != 0)
+            put_difference(coder, MODEL_CORNER_HEIGHT, MODEL_CORNER_DOWN,
+                           (int)paper->corner[i] - height_near(known, x, y));
+    }
+    if (paper->corners == 0)
+        put_difference(coder, MODEL_CORNER_HEIGHT, MODEL_CORNER_DOWN,
+                       (int)paper->frame - height_near(known, 0, 0));
+}
+
+static int by_row(const void *a, const void *b)
+{
+    const known_t *first = a;
+    const known_t *second = b;
+    return first->y != second->y ? first->y - second->y : first->x - second->x;
+}
+
+static void put_gap(coder_t *coder, int gap, int run)
+{
+    for (; gap >= run; gap -= run)
+        put_bit(coder, MODEL_GAP, 1);
+    put_bit(coder, MODEL_GAP, 0);
+    put_uniform(coder, gap, run);
+}
+
+static void put_spots(coder_t *coder, const yb_paper_t *paper, known_t *spot, int count,
+                      known_points_t *known)
+{
+    int columns = columns_of(paper) - 1;
+    int points = columns * (rows_of(paper) - 1);
+    int next = 0;
+    qsort(spot, (size_t)count, sizeof(*spot), by_row);
+    coder->kind = YB_BITS_SPOT_PLACES;
+    put_number(coder, MODEL_SPOTS, count);
+    for (int i = 0; i < count && !coder->failed; i++) {
+        int cell =
+            spot[i].x / paper->spacing - 1 + columns * (spot[i].y / paper->spacing - 1);
+        if (cell < next || cell >= points) {
+            coder->failed = true;
+            return;
+        }
+        coder->kind = YB_BITS_SPOT_PLACES;
+        put_gap(coder, cell - next, (int)gap_run((uint32_t)(points - next), (uint32_t)(count - i)));
+        coder->kind = YB_BITS_SPOT_HEIGHTS;
+        put_difference(coder, MODEL_SPOT_HEIGHT, MODEL_SPOT_DOWN,
+                       spot[i].height - height_near(known, spot[i].x, spot[i].y));
+        known->point[known->count++] = spot[i];
+        next = cell + 1;
+    }
+}
+
+static void put_contours(coder_t *coder, const yb_paper_t *paper)
+{
+    known_t point[YB_PAPER_POINTS];
+    known_t spot[YB_PAPER_POINTS];
+    known_points_t known = {.point = point, .zero = zero_of(paper)};
+    starts_t starts = {.x = columns_of(paper) / 2, .y = rows_of(paper) / 2};
+    int spots = 0;
+    int first = 0;
+    for (int i = 0; i < paper->contour_count; first += paper->contour[i++].count)
+        if (paper->contour[i].count == 1)
+            spot[spots++] =
+                (known_t){paper->point[first].x, paper->point[first].y, paper->contour[i].height};
+    coder->kind = YB_BITS_STARTS;
+    put_number(coder, MODEL_LINES, paper->contour_count - spots);
+    first = 0;
+    for (int i = 0; i < paper->contour_count; first += paper->contour[i++].count)
+        if (paper->contour[i].count > 1)
+            put_line(coder, paper, i, first, &starts, &known);
+    put_corners(coder, paper, &known);
+    put_spots(coder, paper, spot, spots, &known);
+}
+
+static bool on_lattice(const yb_paper_t *paper)
+{
+    for (int i = 0; i < paper->point_count; i++)
+        if (paper->point[i].x % paper->spacing != 0 || paper->point[i].y % paper->spacing != 0)
+            return false;
+    return true;
+}
+
+/* The last 15 bits are free: any value of them lies in what is left of the interval. Seven of them
+ * are the seed, eight the first byte of what follows.
+ */
+static void put_seed(coder_t *coder, uint8_t seed)
+{
+    add(coder, 0x7fff);
+    uint8_t *end = coder->code + coder->size;
+    end[-2] = (uint8_t)((end[-2] & 0x80) | (seed & 0x7f));
+    end[-1] = 0;
+    coder->size--;
+}
+
+static uint8_t crc8(const uint8_t *bytes, size_t count)
+{
+    unsigned crc = 0;
+    for (size_t i = 0; i < count; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = (crc & 0x80) != 0 ? (crc << 1 ^ 0x07) & 0xff : crc << 1;
+    }
+    return (uint8_t)crc;
+}
+
+size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits)
+{
+    coder_t coder = {.code = code, .room = room, .range = 1, .bits = bits};
+    if (bits != NULL)
+        memset(bits, 0, sizeof(*bits));
+    if (room < 4 || !on_lattice(paper))
+        return 0;
+    for (int i = 0; i < MODELS; i++)
+        coder.model[i] = model_first(i);
+    code[coder.size++] = YB_FORMAT_VERSION << 4 | YB_COMPACT;
+    narrow(&coder, 0, 1);
+    put_header(&coder, paper);
+    put_contours(&coder, paper);
+    coder.kind = YB_BITS_HEADER;
+    put_bit(&coder, MODEL_SECTIONS, 0);
+    if (coder.failed)
+        return 0;
+    if (bits != NULL)
+        bits->all = (double)coder.size * 8 - log2((double)coder.range / RANGE_LEAST);
+    put_seed(&coder, paper->seed);
+    code[coder.size] = crc8(code, coder.size);
+    return coder.size + 1;
+}

@@ -1,0 +1,21 @@
+/* Writes codes of the compact profile (docs/SPEC.md 1.3), and tells what each bit goes for. */
+#ifndef YB_COMPACT_CODE_H
+#define YB_COMPACT_CODE_H
+
+#include "paper_code.h"
+
+/* Writes a code; answers its size, or 0 if the draft does not fit the profile: a point off the
+ * lattice, a line at no multiple of the interval, more than `room` bytes. Lines come in the draft's
+ * order, from the first of their points; spot heights in the order of their rows. bits, which may
+ * be NULL, becomes the size with its fractions of a bit. Whether the contours are possible only the
+ * engine says.
+ */
+size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits);
+
+/* The nearest of the profile's cells, units, gains and dimensions. */
+uint16_t yb_compact_cell(double metres);
+uint16_t yb_compact_unit(double metres);
+uint8_t yb_compact_gain(double gain);
+uint8_t yb_compact_dimension(uint8_t dimension);
+
+#endif
