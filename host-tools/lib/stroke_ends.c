@@ -35,7 +35,7 @@ typedef struct {
 /* The direction of an end, from a place some way back. */
 static void end_direction(yb_end_t *end, const yb_stroke_t *stroke, bool last, double thickness)
 {
-    int far = 4 + (int)(2 * thickness);
+    int far = 4 + (int)thickness;
     far = far < stroke->count - 1 ? far : stroke->count - 1;
     yb_place_t a = stroke->place[last ? stroke->count - 1 - far : far];
     yb_place_t b = end->at;
