@@ -521,6 +521,31 @@ static void test_heights_out_of_reach(void **state)
     assert_non_null(strstr(error.text, "no map is so high"));
 }
 
+/* The sheet of the examples: a hill of two summits with gaps in its lines, a slope in a corner. */
+static void test_example(void **state)
+{
+    (void)state;
+    yb_error_t error;
+    const double expected[] = {100, 100, 120, 120, 140, 140, 160,
+                               180, 200, 220, 220, 230, 240, 250};
+    yb_lines_t *lines = yb_lines_from_scan(YB_EXAMPLES "/sheet.png", &scale, &error);
+    if (lines == NULL)
+        fail_msg("%s", error.text);
+    assert_int_equal(lines->count, 14);
+    assert_int_equal(count_kind(lines, false, false), 3);
+    assert_int_equal(count_kind(lines, true, false), 2);
+    for (int i = 0; i < 14; i++) {
+        int lower = 0;
+        int level = 0;
+        for (int k = 0; k < 14; k++) {
+            lower += lines->line[k].height_m < expected[i];
+            level += lines->line[k].height_m == expected[i];
+        }
+        assert_true(lower <= i && i < lower + level);
+    }
+    yb_lines_free(lines);
+}
+
 /* Dots, dashes, blocks and scribbles of any density: an error or lines, and soon. */
 static void test_noise(void **state)
 {
@@ -572,6 +597,7 @@ int main(void)
         cmocka_unit_test(test_nothing_to_read),
         cmocka_unit_test(test_half_a_file),
         cmocka_unit_test(test_heights_out_of_reach),
+        cmocka_unit_test(test_example),
         cmocka_unit_test(test_noise),
     };
     return cmocka_run_group_tests(tests, scratch_begin, scratch_end);
