@@ -345,11 +345,13 @@ static bool encode_scan(const request_t *request, yb_encode_result_t *result, yb
 /* Whether the options fit the kind of input. */
 static int check_scan(const request_t *request, bool scan)
 {
+    /* What is not there is told by the one who tries to read it. */
+    if (!scan && request->based && access(request->input, F_OK) == 0)
+        return cli_usage("--base is for drawn sheets, PNGs of 8 bits without a place on earth: "
+                         "%s is none",
+                         request->input);
     if (!scan)
-        return request->based ? cli_usage("--base is for drawn sheets, PNGs of 8 bits without a "
-                                          "place on earth: %s is none",
-                                          request->input)
-                              : CLI_OK;
+        return CLI_OK;
     if (!request->based || request->task.interval_m <= 0)
         return cli_usage("%s is a drawn sheet (a DEM as a PNG has 16 bits): give the height of its "
                          "outermost lines, --base METRES, and from line to line, --interval METRES",

@@ -108,7 +108,8 @@ static void test_bad_inputs(void **state)
 static void test_drawn_sheets(void **state)
 {
     (void)state;
-    const char *sheet = scratch_path("rings.png");
+    char sheet[512]; /* scratch_path turns round */
+    snprintf(sheet, sizeof(sheet), "%s", scratch_path("rings.png"));
     scratch_sheet(sheet, 4);
     const char *both = "--base 100 --interval 20";
     expect_failure(sheet, "", 2, "--base METRES");
@@ -117,6 +118,7 @@ static void test_drawn_sheets(void **state)
     expect_failure(sheet, "--base high --interval 20", 2, "--base needs a number");
     expect_failure(sheet, "--base 100 --interval 20 --window 0 0 9 9", 2, "is read whole");
     expect_failure(scratch_path("range.tif"), "--base 100", 2, "--base is for drawn sheets");
+    expect_failure(scratch_path("none.png"), both, 1, "No such file");
     const char *blank = scratch_path("blank.png");
     scratch_sheet(blank, 0);
     expect_failure(blank, both, 1, "is blank");
