@@ -393,8 +393,6 @@ static int run(const request_t *request)
 
 static int check_request(request_t *request)
 {
-    if (request->output == NULL)
-        return cli_usage("name the code to write: -o MAP.yb");
     if (request->task.levels > 0 && request->task.interval_m > 0)
         return cli_usage("--levels and --interval exclude each other");
     if (request->json && strcmp(request->output, "-") == 0)
@@ -419,6 +417,8 @@ int cli_encode(int argc, char **argv)
     }
     if (argc - optind != 1)
         return cli_usage(argc == optind ? "name the relief to code" : "more than one input");
+    if (request.output == NULL)
+        return cli_usage("name the code to write: -o MAP.yb");
     request.input = argv[optind];
     int status = check_request(&request);
     return status != CLI_OK ? status : run(&request);

@@ -80,17 +80,21 @@ static uint8_t level_at(const page_t *page, int x, int y, int width, int height,
 static bool measure_paper(page_t *page, const char *path, yb_error_t *error)
 {
     int sheet = level_at(page, 0, 0, page->width, page->height, paper_share);
-    if (sheet < darkest_sheet)
-        return yb_error_set(error, "%s is dark all over: lines must be dark on light paper", path);
+    if (sheet < darkest_sheet) {
+        yb_error_set(error, "%s is dark all over: lines must be dark on light paper", path);
+        return false;
+    }
     int longer = page->width > page->height ? page->width : page->height;
     int block = longer / BLOCKS_A_SIDE;
     block = block < SMALLEST_BLOCK ? SMALLEST_BLOCK : block;
     page->block = block > LARGEST_BLOCK ? LARGEST_BLOCK : block;
-    page->columns = (page->width + page->block - 1) / page->block;
-    page->rows = (page->height + page->block - 1) / page->block;
-    page->paper = malloc((size_t)page->columns * (size_t)page->rows);
-    if (page->paper == NULL)
-        return yb_error_set(error, "%s: out of memory", path);
+    page->columns = 1 + (page->width - 1) / page->block;
+    page->rows = 1 + (page->height - 1) / page->block;
+    page->paper = calloc((size_t)page->columns + 1, (size_t)page->rows + 1);
+    if (page->paper == NULL) {
+        yb_error_set(error, "%s: out of memory", path);
+        return false;
+    }
     double least = darkest_paper * sheet;
     for (int row = 0; row < page->rows; row++)
         for (int column = 0; column < page->columns; column++) {

@@ -136,7 +136,7 @@ yb_lines_t *yb_lines_from_scan(const char *path, const yb_scan_scale_t *scale, y
     yb_strokes_free(&strokes);
     free(marks.place);
     yb_ink_free(&ink);
-    if (!good) {
+    if (!good || lines == NULL) {
         yb_lines_free(lines);
         return NULL;
     }

@@ -74,9 +74,10 @@ static bool lead_to_edge(yb_end_t *end, const yb_ink_t *ink, double most, double
 static bool is_blocked(const yb_ink_t *ink, yb_place_t a, yb_place_t b)
 {
     double length = hypot(b.x_m - a.x_m, b.y_m - a.y_m);
-    for (double along = 2; along <= length - 2; along += 0.5) {
-        int x = (int)(a.x_m + along / length * (b.x_m - a.x_m));
-        int y = (int)(a.y_m + along / length * (b.y_m - a.y_m));
+    int steps = (int)(2 * length);
+    for (int i = 4; i <= steps - 4; i++) {
+        int x = (int)(a.x_m + i / (2 * length) * (b.x_m - a.x_m));
+        int y = (int)(a.y_m + i / (2 * length) * (b.y_m - a.y_m));
         if (ink->pixel[yb_ink_index(ink, x, y)] != 0)
             return true;
     }
