@@ -1,5 +1,6 @@
 #include "scan.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,14 @@ enum {
     MOST_LINES = 4000,
     MOST_NAMED = 3
 };
+
+/* A line that fills so much of its own extent, and that so much of the sheet, is no contour. */
+static const double border_share = 0.94;
+static const double border_side = 0.6;
+
+typedef struct {
+    double west, north, east, south;
+} extent_t;
 
 bool yb_scan_is(const char *path)
 {
@@ -104,6 +113,53 @@ static yb_lines_t *to_lines(const yb_ink_t *ink, const yb_strokes_t *strokes,
     return lines;
 }
 
+static extent_t extent_of(const yb_stroke_t *stroke)
+{
+    extent_t extent = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < stroke->count; i++) {
+        extent.west = fmin(extent.west, stroke->place[i].x_m);
+        extent.east = fmax(extent.east, stroke->place[i].x_m);
+        extent.north = fmin(extent.north, stroke->place[i].y_m);
+        extent.south = fmax(extent.south, stroke->place[i].y_m);
+    }
+    return extent;
+}
+
+/* Whether a stroke is a rectangle, a little crooked perhaps, along the sides of the sheet. */
+static bool is_rectangle(const yb_stroke_t *stroke, const yb_ink_t *ink)
+{
+    extent_t extent = extent_of(stroke);
+    double width = extent.east - extent.west;
+    double depth = extent.south - extent.north;
+    const yb_line_t line = {
+        .closed = stroke->closed, .count = stroke->count, .place = stroke->place};
+    return stroke->closed && width > border_side * ink->width &&
+           depth > border_side * ink->height &&
+           yb_line_area_m2(&line) > border_share * width * depth;
+}
+
+/* A rectangle round all other lines, too crooked for yb_ink_read to cut along it, would lift
+ * everything in it by an interval: it is left out.
+ */
+static void drop_border(yb_strokes_t *strokes, const yb_ink_t *ink)
+{
+    for (int i = 0; i < strokes->count; i++) {
+        yb_stroke_t *stroke = &strokes->stroke[i];
+        extent_t outer = extent_of(stroke);
+        bool border = strokes->count > 1 && is_rectangle(stroke, ink);
+        for (int k = 0; k < strokes->count && border; k++) {
+            extent_t inner = extent_of(&strokes->stroke[k]);
+            border = k == i || (inner.west > outer.west && inner.east < outer.east &&
+                                inner.north > outer.north && inner.south < outer.south);
+        }
+        if (border) {
+            free(stroke->place);
+            *stroke = strokes->stroke[--strokes->count];
+            i = -1; /* there may be one within */
+        }
+    }
+}
+
 static bool check_strokes(const yb_strokes_t *strokes, const yb_blots_t *marks, const char *path,
                           yb_error_t *error)
 {
@@ -127,8 +183,10 @@ yb_lines_t *yb_lines_from_scan(const char *path, const yb_scan_scale_t *scale, y
     if (good && (!yb_blots_take(&ink, &marks) || !yb_thin(&ink)))
         good = yb_error_set(error, "%s: out of memory", path);
     good = good && without_forks(&ink, path, error) &&
-           yb_strokes_follow(&strokes, &ink, &marks, path, error) &&
-           check_strokes(&strokes, &marks, path, error);
+           yb_strokes_follow(&strokes, &ink, &marks, path, error);
+    if (good)
+        drop_border(&strokes, &ink);
+    good = good && check_strokes(&strokes, &marks, path, error);
     if (good && (lines = to_lines(&ink, &strokes, &marks, cell_m)) == NULL)
         good = yb_error_set(error, "%s: out of memory", path);
     if (good && !yb_nesting_heights(lines, scale->base_m, scale->interval_m, &why))

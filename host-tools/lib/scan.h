@@ -7,7 +7,8 @@
  * Lines are dark on light, one to a dozen pixels thick, and neither meet nor end in the middle of
  * the sheet; small gaps are closed. A blot on its own, one and a half to eight lines thick, about
  * as broad as long and not a ring, marks a summit. The sheet's frame is the edge of the picture,
- * or the rectangle drawn along all four sides.
+ * or the rectangle drawn along all four sides; one that
+ * is too crooked for that, but that no line meets, is left out.
  */
 #ifndef YB_SCAN_H
 #define YB_SCAN_H

@@ -380,6 +380,24 @@ static void test_drawn_border(void **state)
     yb_lines_free(lines);
 }
 
+static void test_crooked_border(void **state)
+{
+    (void)state;
+    ring_t ring = {400, 300, 150, 4};
+    sheet_t sheet = sheet_new(800, 600, 3);
+    cairo_move_to(sheet.pen, 20, 15);
+    cairo_line_to(sheet.pen, 780, 28);
+    cairo_line_to(sheet.pen, 770, 585);
+    cairo_line_to(sheet.pen, 10, 572);
+    cairo_close_path(sheet.pen);
+    cairo_stroke(sheet.pen);
+    draw_ring(&sheet, ring);
+    yb_lines_t *lines = read_sheet(&sheet);
+    assert_int_equal(lines->count, 1);
+    assert_true(height_of_ring(lines, ring, 1.5) == 100);
+    yb_lines_free(lines);
+}
+
 /* Stored in another way: grey, grey with alpha, colours of a palette, one bit. */
 static void test_any_kind_of_png(void **state)
 {
@@ -590,6 +608,7 @@ int main(void)
         cmocka_unit_test(test_lines_from_side_to_side),
         cmocka_unit_test(test_corners_rise),
         cmocka_unit_test(test_drawn_border),
+        cmocka_unit_test(test_crooked_border),
         cmocka_unit_test(test_any_kind_of_png),
         cmocka_unit_test(test_heights_are_no_scan),
         cmocka_unit_test(test_lines_that_meet),
