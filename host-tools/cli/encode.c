@@ -14,12 +14,14 @@
 #include "output.h"
 #include "paper_code.h"
 #include "part.h"
+#include "scan.h"
 
 enum {
     OPTION_BYTES = 256,
     OPTION_PROFILE,
     OPTION_LEVELS,
     OPTION_INTERVAL,
+    OPTION_BASE,
     OPTION_SEED,
     OPTION_EFFORT,
     OPTION_FORCE,
@@ -40,6 +42,7 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         CLI_PART_CELL_OPTION,
                                         {"levels", required_argument, NULL, OPTION_LEVELS},
                                         {"interval", required_argument, NULL, OPTION_INTERVAL},
+                                        {"base", required_argument, NULL, OPTION_BASE},
                                         {"seed", required_argument, NULL, OPTION_SEED},
                                         {"effort", required_argument, NULL, OPTION_EFFORT},
                                         {"force", no_argument, NULL, OPTION_FORCE},
@@ -53,7 +56,8 @@ typedef struct {
     const char *input, *output;
     cli_part_t part;
     yb_encode_task_t task;
-    bool force, json, hex, quiet;
+    double base_m; /* of a drawn sheet */
+    bool based, force, json, hex, quiet;
 } request_t;
 
 static int help(void)
@@ -61,7 +65,8 @@ static int help(void)
     fputs("Usage: yamabiko encode INPUT -o MAP.yb [OPTION ...]\n"
           "\n"
           "Codes a relief in about a hundred bytes. INPUT is a raster of heights (a DEM in any\n"
-          "format of GDAL), or a vector file of contour lines with their heights.\n"
+          "format of GDAL), a vector file of contour lines with their heights, or a sheet of\n"
+          "contour lines drawn or scanned as a PNG; see below.\n"
           "\n"
           "The encoder chooses contour lines, their feature points, summits and heights such that\n"
           "the surface which the engine makes of the code lies as near to the relief as it can.\n"
@@ -77,14 +82,16 @@ static int help(void)
           "                        a box in the input's own coordinates\n"
           "  --center LON LAT      a square round a place, in degrees (WGS 84) ...\n"
           "  --km S                ... of so many kilometres a side (default 20)\n"
-          "  --cell METRES         size of the cells of a raster that does not tell it\n"
-          "                        (default 30)\n"
+          "  --cell METRES         size of the cells of a raster, or of the pixels of a sheet,\n"
+          "                        that does not tell it (default 30)\n"
           "\n"
           "What the lines show:\n"
           "  --levels N            lines at N evenly spaced heights only, 1 to 64\n"
-          "  --interval M          lines at multiples of M metres only\n"
+          "  --interval M          lines at multiples of M metres only; on a sheet, the step\n"
+          "                        from each line to the next\n"
           "                        (default: a raster's lines lie wherever they tell most,\n"
           "                        those of a vector file at the heights they have there)\n"
+          "  --base METRES         height of the outermost lines of a sheet\n"
           "  --field NAME          the attribute of a vector file that is the height (default:\n"
           "                        one that sounds like it, or else the z coordinate)\n"
           "  --seed N              of the fractal detail, 0 to 255 (default 1)\n",
@@ -100,13 +107,24 @@ static int help(void)
           "Holes of a raster are filled from around them if they are no more than a quarter of\n"
           "it. Rasters in degrees are laid out in metres round the middle of the window.\n"
           "\n"
-          "RMSE is the root of the mean squared height difference of the smooth surface, without\n"
+          "A PNG of 8 bits or less that does not say where on earth it lies is a sheet; one of\n"
+          "16 bits, or a placed one, is a DEM. A sheet needs --base and --interval. Its lines are\n"
+          "dark on light, 1 to 12 pixels thick, closed or drawn on to the edge or to a rectangle\n"
+          "along it; they must not meet, and small gaps are closed. Each line is one interval\n"
+          "above the one outside it; where lines run from edge to edge, the region with most of\n"
+          "the edge lies lowest. A dot, a cross or a filled triangle up to 8 lines thick is a\n"
+          "summit, half an interval above the line round it. Pits cannot be told. Leave out all\n"
+          "lettering.\n"
+          "\n",
+          stdout);
+    fputs("RMSE is the root of the mean squared height difference of the smooth surface, without\n"
           "fractal detail; NRMSE is the same in standard deviations of the relief.\n"
           "\n"
           "Examples:\n"
           "  yamabiko encode fuji.tif -o fuji.yb\n"
           "  yamabiko encode N46E009.hgt --center 9.8 46.82 --km 15 -o davos.yb --bytes 200\n"
-          "  yamabiko encode contours.gpkg --field hoehe -o hill.yb\n",
+          "  yamabiko encode contours.gpkg --field hoehe -o hill.yb\n"
+          "  yamabiko encode sheet.png --base 100 --interval 20 --cell 2.5 -o hill.yb\n",
           stdout);
     return CLI_OK;
 }
@@ -143,6 +161,11 @@ static int take_coding(request_t *request, int answer)
         if (!cli_number(optarg, &request->task.interval_m) || request->task.interval_m <= 0)
             return cli_usage("--interval needs a number of metres above 0");
         return CLI_OK;
+    case OPTION_BASE:
+        request->based = true;
+        if (!cli_number(optarg, &request->base_m))
+            return cli_usage("--base needs a number of metres");
+        return CLI_OK;
     case OPTION_SEED:
         status = take_integer("--seed", 0, UINT8_MAX, &value);
         request->task.seed = (uint8_t)value;
@@ -178,6 +201,7 @@ static int take_option(request_t *request, int answer, int argc, char **argv)
     case OPTION_PROFILE:
     case OPTION_LEVELS:
     case OPTION_INTERVAL:
+    case OPTION_BASE:
     case OPTION_SEED:
     case OPTION_EFFORT:
         return take_coding(request, answer);
@@ -300,15 +324,58 @@ static bool encode_vector(const request_t *request, yb_encode_result_t *result, 
     return good;
 }
 
+static bool encode_scan(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
+{
+    yb_scan_scale_t scale = {request->base_m, request->task.interval_m,
+                             request->part.window.cell_m};
+    yb_lines_t *lines = yb_lines_from_scan(request->input, &scale, error);
+    if (lines == NULL)
+        return false;
+    if (scale.cell_m <= 0 && !request->quiet)
+        fprintf(stderr, "%s does not tell the size of its pixels: %g m are assumed (--cell)\n",
+                request->input, YB_GRID_DEFAULT_CELL_M);
+    yb_encode_task_t task = request->task;
+    task.interval_m = 0; /* all lines stay at the heights they were given */
+    bool good = yb_encode_lines(lines, &task, result, error);
+    yb_lines_free(lines);
+    return good;
+}
+
+/* Whether the options fit the kind of input. */
+static int check_scan(const request_t *request, bool scan)
+{
+    /* What is not there is told by the one who tries to read it. */
+    if (!scan && request->based && access(request->input, F_OK) == 0)
+        return cli_usage("--base is for drawn sheets, PNGs of 8 bits without a place on earth: "
+                         "%s is none",
+                         request->input);
+    if (!scan)
+        return CLI_OK;
+    if (!request->based || request->task.interval_m <= 0)
+        return cli_usage("%s is a drawn sheet (a DEM as a PNG has 16 bits): give the height of its "
+                         "outermost lines, --base METRES, and from line to line, --interval METRES",
+                         request->input);
+    if (request->part.boxed || request->part.centered)
+        return cli_usage("%s is a drawn sheet and is read whole: --window and --center are for "
+                         "maps that say where they lie",
+                         request->input);
+    return CLI_OK;
+}
+
 static int run(const request_t *request)
 {
     yb_error_t error;
     yb_encode_result_t result;
+    bool scan = request->part.field == NULL && yb_scan_is(request->input);
+    int status = check_scan(request, scan);
+    if (status != CLI_OK)
+        return status;
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
-    bool vector = request->part.field != NULL || yb_lines_is_vector(request->input);
-    bool good =
-        vector ? encode_vector(request, &result, &error) : encode_raster(request, &result, &error);
+    bool vector = request->part.field != NULL || (!scan && yb_lines_is_vector(request->input));
+    bool good = scan     ? encode_scan(request, &result, &error)
+                : vector ? encode_vector(request, &result, &error)
+                         : encode_raster(request, &result, &error);
     if (good && request->task.progress != NULL)
         request->task.progress(NULL, 1);
     if (!good)
@@ -325,8 +392,6 @@ static int run(const request_t *request)
 
 static int check_request(request_t *request)
 {
-    if (request->output == NULL)
-        return cli_usage("name the code to write: -o MAP.yb");
     if (request->task.levels > 0 && request->task.interval_m > 0)
         return cli_usage("--levels and --interval exclude each other");
     if (request->json && strcmp(request->output, "-") == 0)
@@ -352,6 +417,8 @@ int cli_encode(int argc, char **argv)
     }
     if (argc - optind != 1)
         return cli_usage(argc == optind ? "name the relief to code" : "more than one input");
+    if (request.output == NULL)
+        return cli_usage("name the code to write: -o MAP.yb");
     request.input = argv[optind];
     int status = check_request(&request);
     return status != CLI_OK ? status : run(&request);

@@ -34,8 +34,9 @@ typedef struct {
     yb_origin_t origin;      /* of lines from a file */
     int count;
     yb_line_t *line;
-    int room;    /* of the array; private */
-    int dropped; /* lines that end in the open, away from the frame */
+    int room;          /* of the array; private */
+    int dropped;       /* lines that end in the open, away from the frame */
+    double interval_m; /* from line to line, where that is known; 0: the lines tell it */
 } yb_lines_t;
 
 /* The lines of a grid at the given heights. NULL: out of memory, or GDAL says why. */

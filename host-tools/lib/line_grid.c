@@ -57,9 +57,11 @@ int yb_line_grid_levels(const yb_lines_t *lines, double *level_m, int most)
     return used;
 }
 
-/* The usual step from one height to the next: the middle one of all steps. */
+/* The usual step from one height to the next: the middle one of all steps, unless it is known. */
 static double usual_interval(const yb_lines_t *lines)
 {
+    if (lines->interval_m > 0)
+        return lines->interval_m;
     int count = 0;
     double *height_m = distinct_heights(lines, &count);
     double interval = 0;

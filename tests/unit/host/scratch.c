@@ -19,6 +19,8 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "picture.h"
+
 static char directory[256];
 
 static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *where)
@@ -155,6 +157,26 @@ void scratch_raster_bare(const char *path, int columns, int rows, relief_fn reli
     GDALClose(picture);
     GDALClose(memory);
     free(cell);
+}
+
+void scratch_sheet(const char *path, int rings)
+{
+    yb_picture_t picture;
+    assert_true(yb_picture_init(&picture, 120, 100, 1));
+    for (int y = 0; y < 100; y++)
+        for (int x = 0; x < 120; x++) {
+            double away = hypot(x - 60, y - 50) / 10;
+            bool ink = away > 0.5 && away < rings + 0.5 && fabs(away - round(away)) < 0.12;
+            picture.samples[y * 120 + x] = ink ? 30 : 240;
+        }
+    size_t size = 0;
+    uint8_t *bytes = yb_picture_png(&picture, &size);
+    FILE *file = fopen(path, "wb");
+    assert_true(bytes != NULL && file != NULL);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    free(bytes);
+    yb_picture_free(&picture);
 }
 
 yb_grid_t *scratch_grid(int columns, int rows, relief_fn relief)

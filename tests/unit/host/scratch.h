@@ -34,6 +34,9 @@ void scratch_raster_degrees(const char *path, int columns, int rows, relief_fn r
 /* The same as a bare PNG of 16 bits, without a place on earth. */
 void scratch_raster_bare(const char *path, int columns, int rows, relief_fn relief);
 
+/* A PNG of 8 bits: rings drawn round the middle of a sheet of 120 x 100 pixels. */
+void scratch_sheet(const char *path, int rings);
+
 /* The relief as a grid in memory. */
 yb_grid_t *scratch_grid(int columns, int rows, relief_fn relief);
 

@@ -105,6 +105,41 @@ static void test_bad_inputs(void **state)
     expect_failure(lines, "--field height", 1, "no attribute 'height'");
 }
 
+static void test_drawn_sheets(void **state)
+{
+    (void)state;
+    char sheet[512]; /* scratch_path turns round */
+    snprintf(sheet, sizeof(sheet), "%s", scratch_path("rings.png"));
+    scratch_sheet(sheet, 4);
+    const char *both = "--base 100 --interval 20";
+    expect_failure(sheet, "", 2, "--base METRES");
+    expect_failure(sheet, "--base 100", 2, "--interval METRES");
+    expect_failure(sheet, "--interval 20", 2, "--base METRES");
+    expect_failure(sheet, "--base high --interval 20", 2, "--base needs a number");
+    expect_failure(sheet, "--base 100 --interval 20 --window 0 0 9 9", 2, "is read whole");
+    expect_failure(scratch_path("range.tif"), "--base 100", 2, "--base is for drawn sheets");
+    expect_failure(scratch_path("none.png"), both, 1, "No such file");
+    const char *blank = scratch_path("blank.png");
+    scratch_sheet(blank, 0);
+    expect_failure(blank, both, 1, "is blank");
+    assert_int_equal(encode(sheet, both), 0);
+    assert_non_null(strstr(said, "size of its pixels: 30 m are assumed (--cell)"));
+    assert_int_equal(encode(sheet, "--base 100 --interval 20 --cell 2 --force --json"), 0);
+    json_t *made = json_loads(said, 0, NULL);
+    assert_non_null(made);
+    const json_t *heights = json_object_get(made, "line_heights_m");
+    assert_true(json_array_size(heights) > 0);
+    size_t i = 0;
+    json_t *height = NULL;
+    json_array_foreach(heights, i, height)
+    {
+        double step = (json_number_value(height) - 100) / 20;
+        assert_true(step > -0.05 && step < 3.05);
+    }
+    json_decref(made);
+    remove(scratch_path("out.yb"));
+}
+
 static void test_output_is_kept(void **state)
 {
     (void)state;
@@ -191,7 +226,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_usage),      cmocka_unit_test(test_bad_inputs),
         cmocka_unit_test(test_output_is_kept), cmocka_unit_test(test_info_adds_up),
-        cmocka_unit_test(test_pipes),
+        cmocka_unit_test(test_pipes),          cmocka_unit_test(test_drawn_sheets),
     };
     return cmocka_run_group_tests(tests, begin, scratch_end);
 }
