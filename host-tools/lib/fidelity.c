@@ -89,6 +89,16 @@ static double rise(const yb_comparison_t *comparison, const float *z_m, uint32_t
     return sqrt(squares / count);
 }
 
+/* Mean over the lags; see "spectrum" in the header. */
+static double octaves_apart(const yb_fidelity_t *fidelity, const double *rise_m)
+{
+    static const double least_m = 0.01;
+    double sum = 0;
+    for (uint32_t i = 0; i < fidelity->lag_count; i++)
+        sum += fabs(log2(fmax(rise_m[i], least_m) / fmax(fidelity->reference_rise_m[i], least_m)));
+    return fidelity->lag_count > 0 ? sum / fidelity->lag_count : 0;
+}
+
 static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *comparison)
 {
     const uint32_t longer =
@@ -96,9 +106,12 @@ static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *co
     for (int i = 0; i < YB_ROUGHNESS_LAGS && (1u << i) < longer; i++) {
         fidelity->lag_m[i] = comparison->east_m / (comparison->columns - 1) * (1 << i);
         fidelity->reference_rise_m[i] = rise(comparison, comparison->reference_m, 1u << i);
+        fidelity->smooth_rise_m[i] = rise(comparison, comparison->smooth_m, 1u << i);
         fidelity->detail_rise_m[i] = rise(comparison, comparison->detail_m, 1u << i);
         fidelity->lag_count++;
     }
+    fidelity->smooth_spectrum = octaves_apart(fidelity, fidelity->smooth_rise_m);
+    fidelity->detail_spectrum = octaves_apart(fidelity, fidelity->detail_rise_m);
 }
 
 static bool measure_k(yb_fidelity_t *fidelity, const yb_comparison_t *comparison)
@@ -174,13 +187,17 @@ json_t *yb_fidelity_json(const yb_fidelity_t *fidelity)
 {
     json_t *roughness = json_array();
     for (uint32_t i = 0; i < fidelity->lag_count; i++)
-        json_array_append_new(roughness, json_pack("{s:f, s:f, s:f}", "lag_m", fidelity->lag_m[i],
-                                                   "reference_m", fidelity->reference_rise_m[i],
-                                                   "detail_m", fidelity->detail_rise_m[i]));
-    return json_pack(
-        "{s:I, s:I, s:I, s:I, s:f, s:o, s:o, s:f, s:o, s:o}", "bytes", (json_int_t)fidelity->bytes,
-        "points", (json_int_t)fidelity->points, "contours", (json_int_t)fidelity->contours,
-        "body_bits", (json_int_t)fidelity->body_bits, "reference_std_m", fidelity->reference_std_m,
-        "smooth", misfit_json(&fidelity->smooth), "detail", misfit_json(&fidelity->detail), "k",
-        fidelity->k, "contour", contours_json(fidelity), "roughness", roughness);
+        json_array_append_new(roughness,
+                              json_pack("{s:f, s:f, s:f, s:f}", "lag_m", fidelity->lag_m[i],
+                                        "reference_m", fidelity->reference_rise_m[i], "smooth_m",
+                                        fidelity->smooth_rise_m[i], "detail_m",
+                                        fidelity->detail_rise_m[i]));
+    return json_pack("{s:I, s:I, s:I, s:I, s:f, s:o, s:o, s:f, s:o, s:o, s:{s:f, s:f}}", "bytes",
+                     (json_int_t)fidelity->bytes, "points", (json_int_t)fidelity->points,
+                     "contours", (json_int_t)fidelity->contours, "body_bits",
+                     (json_int_t)fidelity->body_bits, "reference_std_m", fidelity->reference_std_m,
+                     "smooth", misfit_json(&fidelity->smooth), "detail",
+                     misfit_json(&fidelity->detail), "k", fidelity->k, "contour",
+                     contours_json(fidelity), "roughness", roughness, "spectrum", "smooth",
+                     fidelity->smooth_spectrum, "detail", fidelity->detail_spectrum);
 }

@@ -223,11 +223,11 @@ static json_t *contours_json(const yb_fractal_report_t *report)
     for (int i = 0; i < report->contour_count; i++) {
         const yb_fractal_contour_t *contour = &report->contour[i];
         json_array_append_new(
-            list, json_pack("{s:f, s:b, s:f, s:o, s:o}", "height_m", contour->height_m, "closed",
-                            contour->closed, "length_m", contour->length_m, "divider",
-                            fit_json(&contour->divider), "dimension",
-                            contour->divider.sizes > 0 ? json_real(contour->dimension)
-                                                       : json_null()));
+            list,
+            json_pack("{s:f, s:b, s:f, s:o, s:o}", "height_m", contour->height_m, "closed",
+                      contour->closed, "length_m", contour->length_m, "divider",
+                      fit_json(&contour->divider), "dimension",
+                      contour->divider.sizes > 0 ? json_real(contour->dimension) : json_null()));
     }
     return list;
 }
@@ -236,13 +236,11 @@ json_t *yb_fractal_json(const yb_fractal_report_t *report)
 {
     json_t *levels = json_array();
     for (int i = 0; i < report->level_count; i++)
-        json_array_append_new(levels,
-                              json_pack("{s:f, s:o}", "height_m", report->level[i].height_m,
-                                        "boxes", fit_json(&report->level[i].boxes)));
+        json_array_append_new(levels, json_pack("{s:f, s:o}", "height_m", report->level[i].height_m,
+                                                "boxes", fit_json(&report->level[i].boxes)));
     json_t *root = json_pack("{s:f, s:f, s:o, s:o, s:o}", "dimension", report->dimension, "hurst",
-                             yb_fractal_hurst(report->dimension), "boxes",
-                             fit_json(&report->boxes), "levels", levels, "contours",
-                             contours_json(report));
+                             yb_fractal_hurst(report->dimension), "boxes", fit_json(&report->boxes),
+                             "levels", levels, "contours", contours_json(report));
     if (report->boxes.sizes > 0) {
         json_object_set_new(root, "r2", json_real(report->boxes.r2));
         json_object_set_new(root, "from_m", json_real(report->boxes.from_m));

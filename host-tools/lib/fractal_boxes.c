@@ -30,8 +30,8 @@ static bool begin_tiling(tiling_t *tiling, const yb_lines_t *lines, double size_
     return tiling->bottom != NULL;
 }
 
-/* By whole cells: lines from a raster know the land at its cells and guess between them, where it is
- * smoother than it should be.
+/* By whole cells: lines from a raster know the land at its cells and guess between them, where it
+ * is smoother than it should be.
  */
 static double shift_m(double size_m, double cell_m, int shift)
 {

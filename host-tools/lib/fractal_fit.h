@@ -1,4 +1,5 @@
-/* What boxes and dividers share: sizes, and the line through their counts. Private to fractal*.c. */
+/* What boxes and dividers share: sizes, and the line through their counts. Private to fractal*.c.
+ */
 #ifndef YB_FRACTAL_FIT_H
 #define YB_FRACTAL_FIT_H
 

@@ -110,8 +110,8 @@ static void cut_out(float *z, const complex_t *plane, bool imaginary, complex_t 
     for (int j = 0; j < FRACTIONAL_SIDE; j++) {
         for (int i = 0; i < FRACTIONAL_SIDE; i++) {
             const complex_t *at = &plane[j * PERIOD + i];
-            const double height = (imaginary ? at->im : at->re) / PERIOD +
-                                  (slope.re * i + slope.im * j) / UNIT;
+            const double height =
+                (imaginary ? at->im : at->re) / PERIOD + (slope.re * i + slope.im * j) / UNIT;
             z[j * FRACTIONAL_SIDE + i] = (float)(scale * height);
             mean += scale * height / (FRACTIONAL_SIDE * FRACTIONAL_SIDE);
         }
