@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "roughness.h"
+
 static int compare_floats(const void *a, const void *b)
 {
     const float first = *(const float *)a, second = *(const float *)b;
@@ -69,34 +71,7 @@ static bool measure_misfit(yb_misfit_t *misfit, const yb_comparison_t *compariso
 
 static double rise(const yb_comparison_t *comparison, const float *z_m, uint32_t lag)
 {
-    double squares = 0, count = 0;
-    for (uint32_t j = 0; j < comparison->rows; j++) {
-        for (uint32_t i = 0; i < comparison->columns; i++) {
-            const size_t at = (size_t)j * comparison->columns + i;
-            if (i + lag < comparison->columns) {
-                const double east = (double)(z_m[at + lag] - z_m[at]);
-                squares += east * east;
-                count++;
-            }
-            if (j + lag < comparison->rows) {
-                const double north =
-                    (double)(z_m[at + (size_t)lag * comparison->columns] - z_m[at]);
-                squares += north * north;
-                count++;
-            }
-        }
-    }
-    return sqrt(squares / count);
-}
-
-/* Mean over the lags; see "spectrum" in the header. */
-static double octaves_apart(const yb_fidelity_t *fidelity, const double *rise_m)
-{
-    static const double least_m = 0.01;
-    double sum = 0;
-    for (uint32_t i = 0; i < fidelity->lag_count; i++)
-        sum += fabs(log2(fmax(rise_m[i], least_m) / fmax(fidelity->reference_rise_m[i], least_m)));
-    return fidelity->lag_count > 0 ? sum / fidelity->lag_count : 0;
+    return yb_roughness_rise_m(z_m, comparison->columns, comparison->rows, lag);
 }
 
 static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *comparison)
@@ -110,8 +85,10 @@ static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *co
         fidelity->detail_rise_m[i] = rise(comparison, comparison->detail_m, 1u << i);
         fidelity->lag_count++;
     }
-    fidelity->smooth_spectrum = octaves_apart(fidelity, fidelity->smooth_rise_m);
-    fidelity->detail_spectrum = octaves_apart(fidelity, fidelity->detail_rise_m);
+    fidelity->smooth_spectrum = yb_roughness_octaves(
+        fidelity->smooth_rise_m, fidelity->reference_rise_m, fidelity->lag_count);
+    fidelity->detail_spectrum = yb_roughness_octaves(
+        fidelity->detail_rise_m, fidelity->reference_rise_m, fidelity->lag_count);
 }
 
 static bool measure_k(yb_fidelity_t *fidelity, const yb_comparison_t *comparison)

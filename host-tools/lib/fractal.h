@@ -100,8 +100,9 @@ static inline double yb_fractal_hurst(double dimension)
     return 2 - dimension;
 }
 
-/* Sets paper->gain so that the fine relief of the map (second differences of heights 6 steps
- * apart) is as strong as the grid's. False if the code is impossible.
+/* Sets paper->gain so that the map is as rough as the grid: that the rises over 1, 2, 4 and 8 cells
+ * are as few octaves off as can be (roughness.h). False, with the gain as it was, if the code is
+ * impossible or memory short. Cost: some fifteen reference surfaces.
  */
 bool yb_fractal_gain(yb_paper_t *paper, const yb_grid_t *grid);
 

@@ -48,6 +48,14 @@ static void shift_tiling(tiling_t *tiling, const yb_lines_t *lines, double cell_
     memset(tiling->bottom, 0, 2 * tiling->sides);
 }
 
+/* A place on the frame lies no more than a box outside of the tiling. (floor() takes most of the
+ * time where it is a call.)
+ */
+static int floored(double boxes)
+{
+    return (int)(boxes + 1) - 1;
+}
+
 /* Turns over each side that the segment crosses. A side begins at its corner and ends before the
  * next, a segment likewise: where two meet in a point, exactly one of them is crossed there.
  */
@@ -57,17 +65,17 @@ static void cross_sides(tiling_t *tiling, yb_place_t a, yb_place_t b)
     const double ay = (a.y_m - tiling->south_m) / tiling->size_m;
     const double bx = (b.x_m - tiling->west_m) / tiling->size_m;
     const double by = (b.y_m - tiling->south_m) / tiling->size_m;
-    const int from_row = (int)floor(ay), to_row = (int)floor(by);
-    const int from_column = (int)floor(ax), to_column = (int)floor(bx);
+    const int from_row = floored(ay), to_row = floored(by);
+    const int from_column = floored(ax), to_column = floored(bx);
     const int south = from_row < to_row ? from_row : to_row;
     const int west = from_column < to_column ? from_column : to_column;
     for (int row = south + 1; row <= from_row + to_row - south; row++) {
-        const int column = (int)floor(ax + (bx - ax) * (row - ay) / (by - ay));
+        const int column = floored(ax + (bx - ax) * (row - ay) / (by - ay));
         if (column >= 0 && row >= 0 && column < tiling->columns && row <= tiling->rows)
             tiling->bottom[row * tiling->pitch + column] ^= 1;
     }
     for (int column = west + 1; column <= from_column + to_column - west; column++) {
-        const int row = (int)floor(ay + (by - ay) * (column - ax) / (bx - ax));
+        const int row = floored(ay + (by - ay) * (column - ax) / (bx - ax));
         if (column >= 0 && row >= 0 && column <= tiling->columns && row < tiling->rows)
             tiling->left[row * tiling->pitch + column] ^= 1;
     }
@@ -108,7 +116,9 @@ bool yb_fractal_count_boxes(const yb_lines_t *lines, const int *order, int line_
             share += divided_boxes(&tiling) / ((double)tiling.columns * tiling.rows);
         }
         free(tiling.bottom);
-        /* As shares, because a tiling rarely covers all of the frame. */
+        /* As shares, because a tiling rarely covers all of the frame. That is right for lines which
+         * fill it, as those of many levels do; one lonely line in its middle measures 0.03 less.
+         */
         counted[k] =
             share / (SHIFTS * SHIFTS) * lines->width_m * lines->depth_m / (size_m[k] * size_m[k]);
     }

@@ -1,81 +1,100 @@
-#include "fractal.h"
+#include <math.h>
+#include <stdlib.h>
 
-/* The gain is measured between heights so many steps apart, on a grid of places. */
+#include "fractal.h"
+#include "roughness.h"
+#include "surface.h"
+
+/* Distances over which map and relief are to rise alike, in cells: there the noise does most. */
+static const uint32_t lags[] = {1, 2, 4, 8};
 enum {
-    GAIN_LAG = 6,
-    GAIN_PLACES = 48,
-    GAIN_ROUNDS = 8
+    LAGS = sizeof(lags) / sizeof(lags[0]),
+    MOST_GAIN = 255,
+    FIRST_STEP = 32
 };
 
-/* Where the gain is measured: a place, and its neighbours GAIN_LAG steps to both sides. */
-static double place_steps(int index, int size)
+/* Where the cells of a grid lie on a map's frame. */
+typedef struct {
+    const yb_grid_t *grid;
+    uint16_t *x_q8, *y_q8;
+    double real_m[LAGS];
+} target_t;
+
+static uint16_t *places(int count, int steps)
 {
-    return GAIN_LAG + (size - 2 * GAIN_LAG) * (index + 0.5) / GAIN_PLACES;
+    uint16_t *at_q8 = malloc((size_t)count * sizeof(*at_q8));
+    for (int i = 0; at_q8 != NULL && i < count; i++)
+        at_q8[i] = (uint16_t)lround(256.0 * steps * i / (count - 1));
+    return at_q8;
 }
 
-static double map_roughness_m2(const yb_map_t *map)
+static void measure_rises(const yb_grid_t *grid, const float *z_m, double *rise_m)
 {
-    int east = map->east_q8 >> 8;
-    int north = map->north_q8 >> 8;
-    double sum = 0;
-    for (int row = 0; row < GAIN_PLACES; row++)
-        for (int column = 0; column < GAIN_PLACES; column++) {
-            int x = (int)(256 * place_steps(column, east));
-            int y = (int)(256 * place_steps(row, north));
-            double middle = yb_map_height(map, (uint16_t)x, (uint16_t)y);
-            double bend_x = yb_map_height(map, (uint16_t)(x - GAIN_LAG * 256), (uint16_t)y) +
-                            yb_map_height(map, (uint16_t)(x + GAIN_LAG * 256), (uint16_t)y) -
-                            2 * middle;
-            double bend_y = yb_map_height(map, (uint16_t)x, (uint16_t)(y - GAIN_LAG * 256)) +
-                            yb_map_height(map, (uint16_t)x, (uint16_t)(y + GAIN_LAG * 256)) -
-                            2 * middle;
-            sum += bend_x * bend_x + bend_y * bend_y;
-        }
-    double metres = yb_paper_metres(map->cell) / 256;
-    return sum * metres * metres;
+    for (int i = 0; i < LAGS; i++)
+        rise_m[i] =
+            yb_roughness_rise_m(z_m, (uint32_t)grid->columns, (uint32_t)grid->rows, lags[i]);
 }
 
-static double grid_roughness_m2(const yb_grid_t *grid, const yb_paper_t *paper)
+typedef struct {
+    const target_t *target;
+    yb_paper_t *paper;
+    int best;
+    double least; /* octaves that the map is off with it */
+} search_t;
+
+/* Keeps the gain if it is better. False: the code is impossible, or no memory. */
+static bool try_gain(search_t *search, int gain)
 {
-    double step_x = yb_grid_width_m(grid) / paper->east;
-    double step_y = yb_grid_depth_m(grid) / paper->north;
-    double sum = 0;
-    for (int row = 0; row < GAIN_PLACES; row++)
-        for (int column = 0; column < GAIN_PLACES; column++) {
-            double x = place_steps(column, paper->east) * step_x;
-            double y = place_steps(row, paper->north) * step_y;
-            double lag_x = GAIN_LAG * step_x;
-            double lag_y = GAIN_LAG * step_y;
-            double middle = yb_grid_height(grid, x, y);
-            double bend_x = yb_grid_height(grid, x - lag_x, y) +
-                            yb_grid_height(grid, x + lag_x, y) - 2 * middle;
-            double bend_y = yb_grid_height(grid, x, y - lag_y) +
-                            yb_grid_height(grid, x, y + lag_y) - 2 * middle;
-            sum += bend_x * bend_x + bend_y * bend_y;
-        }
-    return sum;
+    yb_error_t error;
+    double rise_m[LAGS];
+    const yb_grid_t *grid = search->target->grid;
+    search->paper->gain = (uint8_t)gain;
+    yb_code_file_t *file = yb_paper_check(search->paper, &error);
+    if (file == NULL)
+        return false;
+    float *z_m = yb_map_heights_m(&file->map, search->target->x_q8, (uint32_t)grid->columns,
+                                  search->target->y_q8, (uint32_t)grid->rows);
+    yb_code_file_free(file);
+    if (z_m == NULL)
+        return false;
+    measure_rises(grid, z_m, rise_m);
+    free(z_m);
+    const double octaves = yb_roughness_octaves(rise_m, search->target->real_m, LAGS);
+    if (octaves < search->least) {
+        search->least = octaves;
+        search->best = gain;
+    }
+    return true;
+}
+
+/* Wide steps as long as they help, because rises grow with the gain; then ever shorter ones to both
+ * sides of the best. Some fifteen maps are made.
+ */
+static bool search_gain(search_t *search)
+{
+    int gain = 0;
+    bool good = true;
+    for (; good && gain <= MOST_GAIN && search->best >= gain - FIRST_STEP; gain += FIRST_STEP)
+        good = try_gain(search, gain);
+    for (int step = FIRST_STEP / 2; good && step >= 1; step /= 2) {
+        const int middle = search->best;
+        good = middle < step || try_gain(search, middle - step);
+        good = good && (middle + step > MOST_GAIN || try_gain(search, middle + step));
+    }
+    return good;
 }
 
 bool yb_fractal_gain(yb_paper_t *paper, const yb_grid_t *grid)
 {
-    yb_error_t error;
-    double wanted = grid_roughness_m2(grid, paper);
-    int low = 0; /* the gain lies in [low, high): roughness grows with it */
-    int high = 256;
-    if (paper->east <= 2 * GAIN_LAG || paper->north <= 2 * GAIN_LAG)
-        return true;
-    for (int round = 0; round < GAIN_ROUNDS && high - low > 1; round++) {
-        int middle = (low + high) / 2;
-        paper->gain = (uint8_t)middle;
-        yb_code_file_t *file = yb_paper_check(paper, &error);
-        if (file == NULL)
-            return false;
-        if (map_roughness_m2(&file->map) > wanted)
-            high = middle;
-        else
-            low = middle;
-        yb_code_file_free(file);
-    }
-    paper->gain = (uint8_t)low;
-    return true;
+    const uint8_t before = paper->gain;
+    target_t target = {.grid = grid,
+                       .x_q8 = places(grid->columns, paper->east),
+                       .y_q8 = places(grid->rows, paper->north)};
+    measure_rises(grid, grid->height_m, target.real_m);
+    search_t search = {.target = &target, .paper = paper, .least = INFINITY};
+    const bool good = target.x_q8 != NULL && target.y_q8 != NULL && search_gain(&search);
+    paper->gain = good ? (uint8_t)search.best : before;
+    free(target.x_q8);
+    free(target.y_q8);
+    return good;
 }
