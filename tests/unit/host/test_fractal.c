@@ -144,7 +144,7 @@ static void test_smooth_lines(void **state)
     (void)state;
     yb_place_t place[PLACES];
     yb_fractal_fit_t fit;
-    for (double size_m = 2000; size_m < 3500; size_m += 130) {
+    for (double size_m = 2000; size_m < 3000; size_m += 130) {
         const yb_line_t ring = circle(place, size_m);
         assert_true(yb_fractal_divider(&ring, 30, &fit));
         expect_near("circle by divider", 1, fit.dimension, 1, 0.02);
@@ -153,7 +153,7 @@ static void test_smooth_lines(void **state)
         yb_fractal_report_t report;
         assert_true(yb_lines_add(lines, 100, true, place, PLACES));
         assert_true(yb_fractal_of_lines(lines, 30, &report, &error));
-        expect_near("circle by boxes", 1, report.boxes.dimension, 0.96, 0.04);
+        expect_near("circle by boxes", 1, report.boxes.dimension, 1, 0.03);
         assert_true(report.dimension == YB_FRACTAL_LEAST);
         yb_fractal_free(&report);
         yb_lines_free(lines);
@@ -165,7 +165,7 @@ static void test_smooth_lines(void **state)
         lines = yb_lines_new(8000, 8000);
         assert_true(yb_lines_add(lines, 100, false, ends, 2));
         assert_true(yb_fractal_of_lines(lines, 30, &report, &error));
-        expect_near("straight line by boxes", 1, report.boxes.dimension, 1, 0.04);
+        expect_near("straight line by boxes", 1, report.boxes.dimension, 1, 0.02);
         yb_fractal_free(&report);
         yb_lines_free(lines);
     }
