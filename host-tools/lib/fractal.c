@@ -13,7 +13,7 @@ static const double size_cells[] = {YB_FRACTAL_LEAST_CELLS, 6, 8, 12, 16, 24, 32
 /* The largest box is an eighth of the frame: of larger ones there are so few that each counts by
  * where the mountain happens to lie. And no size of which fewer boxes count than least_boxes. On a
  * circle these are boxes above a quarter of the radius, which cut off its bends: even so it
- * measures 0.92 to 1. (On what is fractal small boxes gain by bends what large ones lose.)
+ * measures 0.97 to 1. (On what is fractal small boxes gain by bends what large ones lose.)
  */
 static const double most_share = 1.0 / 8;
 static const double least_boxes = 32;

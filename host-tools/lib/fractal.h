@@ -8,8 +8,8 @@
  *
  * Boxes: squares of the size s tile the frame; a box counts when the lines of the level divide its
  * corners, that is, cross one of its sides an odd number of times. The mean over 16 positions of
- * the tiling falls as s^-D. On fractional surfaces this has no bias that could be measured, where
- * counting every box that a line meets finds D = 1.6 for 1.8 and 1.4 for 1.5 (docs/DESIGN.md).
+ * the tiling falls as s^-D. On fractional surfaces that has no bias that could be measured, where
+ * counting every box that a line meets finds too little (docs/DESIGN.md).
  *
  * Dividers: chords of the length s are stepped off along one line, from 8 places of it; what is
  * left at the end counts as a part of a step. Their number falls as s^-D.
