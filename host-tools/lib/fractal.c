@@ -154,7 +154,7 @@ static void offer_contour(yb_fractal_report_t *report, int *index, const yb_line
 static bool measure_contours(const yb_lines_t *lines, double cell_m, const int *order, int count,
                              yb_fractal_report_t *report)
 {
-    int index[YB_FRACTAL_CONTOURS];
+    int index[YB_FRACTAL_CONTOURS] = {0};
     for (int i = 0; i < count; i++)
         offer_contour(report, index, &lines->line[order[i]], order[i]);
     for (int i = 0; i < report->contour_count; i++) {

@@ -71,7 +71,7 @@ static bool begin_tiling(tiling_t *tiling, const yb_lines_t *lines, double size_
     tiling->pitch = 2 + (int)(lines->width_m / size_m);
     tiling->sides = (size_t)tiling->pitch * (size_t)(2 + (int)(lines->depth_m / size_m));
     tiling->bottom = malloc(2 * tiling->sides);
-    tiling->left = tiling->bottom + tiling->sides;
+    tiling->left = tiling->bottom == NULL ? NULL : tiling->bottom + tiling->sides;
     tiling->weight = malloc((size_t)tiling->pitch * sizeof(*tiling->weight));
     return tiling->bottom != NULL && tiling->weight != NULL;
 }
