@@ -11,6 +11,8 @@
 #include <jansson.h>
 
 #include "encode.h"
+#include "fractal.h"
+#include "line_grid.h"
 #include "output.h"
 #include "paper_code.h"
 #include "part.h"
@@ -118,7 +120,8 @@ static int help(void)
           "\n",
           stdout);
     fputs("RMSE is the root of the mean squared height difference of the smooth surface, without\n"
-          "fractal detail; NRMSE is the same in standard deviations of the relief.\n"
+          "fractal detail; NRMSE is the same in standard deviations of the relief. The dimension\n"
+          "is that of all contour lines of a level together, measured by counting boxes.\n"
           "\n"
           "Examples:\n"
           "  yamabiko encode fuji.tif -o fuji.yb\n"
@@ -244,7 +247,8 @@ static void hex_of(const yb_code_file_t *code, char *text)
         snprintf(text + 2 * i, 3, "%02x", code->bytes[i]);
 }
 
-static void tell_json(const request_t *request, const yb_encode_result_t *result)
+static void tell_json(const request_t *request, const yb_encode_result_t *result,
+                      const yb_fractal_report_t *fractal)
 {
     const yb_code_file_t *code = result->code;
     int points = point_count(code);
@@ -261,6 +265,7 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
     json_object_set_new(root, "rmse_m", json_real(result->rmse_m));
     json_object_set_new(root, "nrmse", json_real(result->rmse_m / result->std_m));
     json_object_set_new(root, "dimension", json_real(result->dimension));
+    json_object_set_new(root, "fractal", yb_fractal_json(fractal));
     json_object_set_new(root, "trials", json_integer(result->trials));
     if (request->hex) {
         char text[2 * YB_MAX_CODE_BYTES + 1] = "";
@@ -273,7 +278,8 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
 }
 
 /* In words; not on the standard output if the code goes there. */
-static void tell_text(const request_t *request, const yb_encode_result_t *result)
+static void tell_text(const request_t *request, const yb_encode_result_t *result,
+                      const yb_fractal_report_t *fractal)
 {
     FILE *to = strcmp(request->output, "-") == 0 ? stderr : stdout;
     const yb_code_file_t *code = result->code;
@@ -285,8 +291,13 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
             "%s: %zu bytes, %d contours (%d of them spot heights) with %d points, F = %d bits\n",
             request->output, code->size, code->load.contour_count, spots, points,
             12 * points + 20 * code->load.contour_count + 8);
-    fprintf(to, "RMSE %.1f m, NRMSE %.3f (without detail), dimension %.2f\n", result->rmse_m,
-            result->rmse_m / result->std_m, result->dimension);
+    fprintf(to, "RMSE %.1f m, NRMSE %.3f (without detail)\n", result->rmse_m,
+            result->rmse_m / result->std_m);
+    if (fractal->boxes.sizes > 0)
+        fprintf(to, "dimension %.2f (boxes, r² %.3f, %.4g to %.4g m)\n", result->dimension,
+                fractal->boxes.r2, fractal->boxes.from_m, fractal->boxes.to_m);
+    else
+        fprintf(to, "dimension %.2f (the lines are too short to measure it)\n", result->dimension);
     if (request->hex) {
         char text[2 * YB_MAX_CODE_BYTES + 1] = "";
         hex_of(code, text);
@@ -294,7 +305,8 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
     }
 }
 
-static bool encode_raster(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
+static bool encode_raster(const request_t *request, yb_encode_result_t *result,
+                          yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_grid_t *grid = yb_grid_read(request->input, &request->part.window, GRID_SIDE, error);
     if (grid == NULL)
@@ -305,12 +317,14 @@ static bool encode_raster(const request_t *request, yb_encode_result_t *result, 
     if (!grid->placed && request->part.window.cell_m <= 0 && !request->quiet)
         fprintf(stderr, "%s does not tell the size of its cells: %g m are assumed (--cell)\n",
                 request->input, YB_GRID_DEFAULT_CELL_M);
-    bool good = yb_encode_grid(grid, &request->task, result, error);
+    bool good = yb_fractal_of_grid(grid, fractal, error) &&
+                yb_encode_grid(grid, &request->task, result, error);
     yb_grid_free(grid);
     return good;
 }
 
-static bool encode_vector(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
+static bool encode_vector(const request_t *request, yb_encode_result_t *result,
+                          yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_lines_t *lines =
         yb_lines_from_vector(request->input, request->part.field, &request->part.window, error);
@@ -319,12 +333,14 @@ static bool encode_vector(const request_t *request, yb_encode_result_t *result, 
     if (lines->dropped > 0 && !request->quiet)
         fprintf(stderr, "%s: %d lines end inside the window and are left out\n", request->input,
                 lines->dropped);
-    bool good = yb_encode_lines(lines, &request->task, result, error);
+    bool good = yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
+                yb_encode_lines(lines, &request->task, result, error);
     yb_lines_free(lines);
     return good;
 }
 
-static bool encode_scan(const request_t *request, yb_encode_result_t *result, yb_error_t *error)
+static bool encode_scan(const request_t *request, yb_encode_result_t *result,
+                        yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_scan_scale_t scale = {request->base_m, request->task.interval_m,
                              request->part.window.cell_m};
@@ -336,7 +352,8 @@ static bool encode_scan(const request_t *request, yb_encode_result_t *result, yb
                 request->input, YB_GRID_DEFAULT_CELL_M);
     yb_encode_task_t task = request->task;
     task.interval_m = 0; /* all lines stay at the heights they were given */
-    bool good = yb_encode_lines(lines, &task, result, error);
+    bool good = yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
+                yb_encode_lines(lines, &task, result, error);
     yb_lines_free(lines);
     return good;
 }
@@ -373,19 +390,23 @@ static int run(const request_t *request)
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
     bool vector = request->part.field != NULL || (!scan && yb_lines_is_vector(request->input));
-    bool good = scan     ? encode_scan(request, &result, &error)
-                : vector ? encode_vector(request, &result, &error)
-                         : encode_raster(request, &result, &error);
+    yb_fractal_report_t fractal = {0};
+    bool good = scan     ? encode_scan(request, &result, &fractal, &error)
+                : vector ? encode_vector(request, &result, &fractal, &error)
+                         : encode_raster(request, &result, &fractal, &error);
     if (good && request->task.progress != NULL)
         request->task.progress(NULL, 1);
-    if (!good)
+    if (!good) {
+        yb_fractal_free(&fractal);
         return cli_fail("%s", error.text);
+    }
     good = yb_output_write(request->output, request->force, result.code->bytes, result.code->size,
                            &error);
     if (good && request->json)
-        tell_json(request, &result);
+        tell_json(request, &result, &fractal);
     else if (good && !request->quiet)
-        tell_text(request, &result);
+        tell_text(request, &result, &fractal);
+    yb_fractal_free(&fractal);
     yb_code_file_free(result.code);
     return good ? CLI_OK : cli_fail("%s", error.text);
 }

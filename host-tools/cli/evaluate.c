@@ -58,6 +58,10 @@ static void help(void)
         "  NRMSE   RMSE over the standard deviation of the real heights\n"
         "  p90     what nine tenths of the differences do not exceed; max: the largest\n"
         "  slope   mean difference of slope, in degrees\n"
+        "  spectrum\n"
+        "          how far the root mean squared rises over 1, 2, 4 ... 64 cells are from the "
+        "real\n"
+        "          ones: mean of |log2(rise / real rise)|, in octaves\n"
         "  K       similarity of the contours, 0 to 1, from overlap (a), distance (d) and\n"
         "          curvature (c); K = (a + d + c) / 3, weighted by the polygons' lengths\n"
         "  N M F   points, contours and the bits of the 1985 paper's code, 12 N + 20 M + 8\n"
@@ -151,10 +155,12 @@ static void print_fidelity(const yb_fidelity_t *fidelity)
                similarity->k, similarity->area, similarity->distance, similarity->curvature,
                similarity->length, similarity->reproduced == YB_NO_LINE ? "  missing" : "");
     }
-    puts("\n     lag m   real rise m   rise m");
+    puts("\n     lag m   real rise m   smooth m   with detail m");
     for (uint32_t i = 0; i < fidelity->lag_count; i++)
-        printf("%10.1f  %12.2f  %7.2f\n", fidelity->lag_m[i], fidelity->reference_rise_m[i],
-               fidelity->detail_rise_m[i]);
+        printf("%10.1f  %12.2f  %9.2f  %14.2f\n", fidelity->lag_m[i], fidelity->reference_rise_m[i],
+               fidelity->smooth_rise_m[i], fidelity->detail_rise_m[i]);
+    printf("spectrum: smooth %.3f octaves off, with detail %.3f\n", fidelity->smooth_spectrum,
+           fidelity->detail_spectrum);
 }
 
 /* The last part of the path. */

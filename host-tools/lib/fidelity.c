@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "roughness.h"
+
 static int compare_floats(const void *a, const void *b)
 {
     const float first = *(const float *)a, second = *(const float *)b;
@@ -69,24 +71,7 @@ static bool measure_misfit(yb_misfit_t *misfit, const yb_comparison_t *compariso
 
 static double rise(const yb_comparison_t *comparison, const float *z_m, uint32_t lag)
 {
-    double squares = 0, count = 0;
-    for (uint32_t j = 0; j < comparison->rows; j++) {
-        for (uint32_t i = 0; i < comparison->columns; i++) {
-            const size_t at = (size_t)j * comparison->columns + i;
-            if (i + lag < comparison->columns) {
-                const double east = (double)(z_m[at + lag] - z_m[at]);
-                squares += east * east;
-                count++;
-            }
-            if (j + lag < comparison->rows) {
-                const double north =
-                    (double)(z_m[at + (size_t)lag * comparison->columns] - z_m[at]);
-                squares += north * north;
-                count++;
-            }
-        }
-    }
-    return sqrt(squares / count);
+    return yb_roughness_rise_m(z_m, comparison->columns, comparison->rows, lag);
 }
 
 static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *comparison)
@@ -96,9 +81,14 @@ static void measure_roughness(yb_fidelity_t *fidelity, const yb_comparison_t *co
     for (int i = 0; i < YB_ROUGHNESS_LAGS && (1u << i) < longer; i++) {
         fidelity->lag_m[i] = comparison->east_m / (comparison->columns - 1) * (1 << i);
         fidelity->reference_rise_m[i] = rise(comparison, comparison->reference_m, 1u << i);
+        fidelity->smooth_rise_m[i] = rise(comparison, comparison->smooth_m, 1u << i);
         fidelity->detail_rise_m[i] = rise(comparison, comparison->detail_m, 1u << i);
         fidelity->lag_count++;
     }
+    fidelity->smooth_spectrum = yb_roughness_octaves(
+        fidelity->smooth_rise_m, fidelity->reference_rise_m, fidelity->lag_count);
+    fidelity->detail_spectrum = yb_roughness_octaves(
+        fidelity->detail_rise_m, fidelity->reference_rise_m, fidelity->lag_count);
 }
 
 static bool measure_k(yb_fidelity_t *fidelity, const yb_comparison_t *comparison)
@@ -174,13 +164,17 @@ json_t *yb_fidelity_json(const yb_fidelity_t *fidelity)
 {
     json_t *roughness = json_array();
     for (uint32_t i = 0; i < fidelity->lag_count; i++)
-        json_array_append_new(roughness, json_pack("{s:f, s:f, s:f}", "lag_m", fidelity->lag_m[i],
-                                                   "reference_m", fidelity->reference_rise_m[i],
-                                                   "detail_m", fidelity->detail_rise_m[i]));
-    return json_pack(
-        "{s:I, s:I, s:I, s:I, s:f, s:o, s:o, s:f, s:o, s:o}", "bytes", (json_int_t)fidelity->bytes,
-        "points", (json_int_t)fidelity->points, "contours", (json_int_t)fidelity->contours,
-        "body_bits", (json_int_t)fidelity->body_bits, "reference_std_m", fidelity->reference_std_m,
-        "smooth", misfit_json(&fidelity->smooth), "detail", misfit_json(&fidelity->detail), "k",
-        fidelity->k, "contour", contours_json(fidelity), "roughness", roughness);
+        json_array_append_new(roughness,
+                              json_pack("{s:f, s:f, s:f, s:f}", "lag_m", fidelity->lag_m[i],
+                                        "reference_m", fidelity->reference_rise_m[i], "smooth_m",
+                                        fidelity->smooth_rise_m[i], "detail_m",
+                                        fidelity->detail_rise_m[i]));
+    return json_pack("{s:I, s:I, s:I, s:I, s:f, s:o, s:o, s:f, s:o, s:o, s:{s:f, s:f}}", "bytes",
+                     (json_int_t)fidelity->bytes, "points", (json_int_t)fidelity->points,
+                     "contours", (json_int_t)fidelity->contours, "body_bits",
+                     (json_int_t)fidelity->body_bits, "reference_std_m", fidelity->reference_std_m,
+                     "smooth", misfit_json(&fidelity->smooth), "detail",
+                     misfit_json(&fidelity->detail), "k", fidelity->k, "contour",
+                     contours_json(fidelity), "roughness", roughness, "spectrum", "smooth",
+                     fidelity->smooth_spectrum, "detail", fidelity->detail_spectrum);
 }

@@ -9,8 +9,11 @@
  *             slope of a square is that of the mean rise along its opposite sides
  *   roughness root of the mean squared rise between cells that lie 1, 2, 4 … 64 cells apart, east
  *             or north: the real relief beside the map with detail
- * K and K_i: docs/similarity.md. N points, M contours (spot heights among both), F = 12N + 20M + 8
- * bits: the size of the 1985 paper's body, whatever the file's profile.
+ *   spectrum  mean over those distances of |log2(rise of the map / real rise)|, in octaves: 0 if
+ * the map is as rough as the land at every scale, 1 if it is twice or half as rough; of the smooth
+ * surface and of that with detail. A rise below 1/100 m counts as 1/100 m K and K_i:
+ * docs/similarity.md. N points, M contours (spot heights among both), F = 12N + 20M + 8 bits: the
+ * size of the 1985 paper's body, whatever the file's profile.
  */
 #ifndef YB_FIDELITY_H
 #define YB_FIDELITY_H
@@ -46,7 +49,9 @@ typedef struct {
     uint32_t lag_count; /* lags that fit into the frame */
     double lag_m[YB_ROUGHNESS_LAGS];
     double reference_rise_m[YB_ROUGHNESS_LAGS];
+    double smooth_rise_m[YB_ROUGHNESS_LAGS];
     double detail_rise_m[YB_ROUGHNESS_LAGS];
+    double smooth_spectrum, detail_spectrum; /* octaves */
 } yb_fidelity_t;
 
 /* False: no memory. */

@@ -4,138 +4,219 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Box sizes and divider openings in cells, and how finely a line is walked for the boxes. */
-static const double size_cells[] = {4, 6, 8, 12, 16, 24, 32};
-enum {
-    SIZES = sizeof(size_cells) / sizeof(size_cells[0])
-};
-static const double walk_cells = 0.25;
+#include "fractal_fit.h"
+#include "sketch.h"
 
-/* The gain is measured between heights so many steps apart, on a grid of places. */
-enum {
-    GAIN_LAG = 6,
-    GAIN_PLACES = 48,
-    GAIN_ROUNDS = 8
-};
+/* Sizes of the boxes in cells: about two to an octave. */
+static const double size_cells[] = {YB_FRACTAL_LEAST_CELLS, 6, 8, 12, 16, 24, 32, 48, 64, 96};
+
+/* The largest box is an eighth of the frame: of larger ones there are so few that each counts by
+ * where the mountain happens to lie. And no size of which fewer boxes count than least_boxes. On a
+ * circle these are boxes above a quarter of the radius, which cut off its bends: even so it
+ * measures 0.97 to 1. (On what is fractal small boxes gain by bends what large ones lose.)
+ */
+static const double most_share = 1.0 / 8;
+static const double least_boxes = 32;
 
 static double clamp_dimension(double dimension)
 {
     return fmin(fmax(dimension, YB_FRACTAL_LEAST), YB_FRACTAL_MOST);
 }
 
-/* Slope of the line through the points by least squares. */
-static double fit_slope(const double *x, const double *y, int count)
+yb_fractal_fit_t yb_fractal_fit(const double *size_m, const double *counted, int count)
 {
-    double mean_x = 0;
-    double mean_y = 0;
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+    if (count < 3)
+        return (yb_fractal_fit_t){0};
     for (int i = 0; i < count; i++) {
-        mean_x += x[i] / count;
-        mean_y += y[i] / count;
+        mean_x -= log(size_m[i]) / count;
+        mean_y += log(counted[i]) / count;
     }
-    double squares = 0;
-    double products = 0;
     for (int i = 0; i < count; i++) {
-        squares += (x[i] - mean_x) * (x[i] - mean_x);
-        products += (x[i] - mean_x) * (y[i] - mean_y);
+        const double x = -log(size_m[i]) - mean_x, y = log(counted[i]) - mean_y;
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
     }
-    return squares > 0 ? products / squares : 0;
+    return (yb_fractal_fit_t){.dimension = xy / xx,
+                              .r2 = yy > 0 ? xy * xy / (xx * yy) : 1,
+                              .from_m = size_m[0],
+                              .to_m = size_m[count - 1],
+                              .sizes = count};
 }
 
+static yb_fractal_fit_t fit_boxes(const double *size_m, const double *counted, int sizes)
+{
+    int used = 0;
+    while (used < sizes && counted[used] >= least_boxes)
+        used++;
+    return yb_fractal_fit(size_m, counted, used);
+}
+
+/* A line that has a length, and which it is. */
 typedef struct {
-    unsigned char *met;
-    int columns, rows;
-    double size_m;
-} boxes_t;
+    const yb_line_t *line;
+    int index;
+} ordered_t;
 
-static void mark_line(boxes_t *boxes, const yb_line_t *line, double walk_m)
+/* By height first; lines that are the same follow each other. */
+static int by_height(const void *a, const void *b)
 {
-    int segments = line->closed ? line->count : line->count - 1;
-    for (int i = 0; i < segments; i++) {
-        yb_place_t a = line->place[i];
-        yb_place_t b = line->place[i + 1 == line->count ? 0 : i + 1];
-        int parts = 1 + (int)(hypot(b.x_m - a.x_m, b.y_m - a.y_m) / walk_m);
-        for (int part = 0; part < parts; part++) {
-            double along = (double)part / parts;
-            int column = (int)((a.x_m + along * (b.x_m - a.x_m)) / boxes->size_m);
-            int row = (int)((a.y_m + along * (b.y_m - a.y_m)) / boxes->size_m);
-            if (column >= 0 && row >= 0 && column < boxes->columns && row < boxes->rows)
-                boxes->met[row * boxes->columns + column] = 1;
-        }
-    }
+    const yb_line_t *first = ((const ordered_t *)a)->line;
+    const yb_line_t *second = ((const ordered_t *)b)->line;
+    if (first->height_m != second->height_m)
+        return first->height_m < second->height_m ? -1 : 1;
+    if (first->count != second->count)
+        return first->count < second->count ? -1 : 1;
+    const int differ =
+        memcmp(first->place, second->place, (size_t)first->count * sizeof(*first->place));
+    return differ != 0 ? differ : ((const ordered_t *)a)->index - ((const ordered_t *)b)->index;
 }
 
-/* Boxes of one size that the lines meet, level by level (equal heights follow each other). */
-static double count_boxes(const yb_lines_t *lines, boxes_t *boxes, double walk_m)
+static bool same_line(const yb_line_t *a, const yb_line_t *b)
 {
-    double count = 0;
-    size_t all = (size_t)boxes->columns * (size_t)boxes->rows;
-    for (int i = 0; i < lines->count; i++) {
-        if (i == 0 || lines->line[i].height_m != lines->line[i - 1].height_m)
-            memset(boxes->met, 0, all);
-        mark_line(boxes, &lines->line[i], walk_m);
-        if (i + 1 == lines->count || lines->line[i + 1].height_m != lines->line[i].height_m)
-            for (size_t k = 0; k < all; k++)
-                count += boxes->met[k];
+    return a->height_m == b->height_m && a->count == b->count && a->closed == b->closed &&
+           memcmp(a->place, b->place, (size_t)a->count * sizeof(*a->place)) == 0;
+}
+
+/* Indices of the lines, those of one height one after the other. A line that is there twice (two
+ * tenths of a grid may lie at one height: the sea) is taken once, or it would undo itself.
+ */
+static int *order_lines(const yb_lines_t *lines, int *count)
+{
+    ordered_t *line = malloc(((size_t)lines->count + 1) * sizeof(*line));
+    int *order = malloc(((size_t)lines->count + 1) * sizeof(*order));
+    int all = 0;
+    *count = 0;
+    for (int i = 0; line != NULL && i < lines->count; i++)
+        if (lines->line[i].count > 1)
+            line[all++] = (ordered_t){&lines->line[i], i};
+    if (all > 1)
+        qsort(line, (size_t)all, sizeof(*line), by_height);
+    for (int i = 0; order != NULL && i < all; i++)
+        if (i == 0 || !same_line(line[i - 1].line, line[i].line))
+            order[(*count)++] = line[i].index;
+    if (line == NULL) {
+        free(order);
+        order = NULL;
     }
-    return count;
+    free(line);
+    return order;
+}
+
+/* All levels: each fitted, and their counts added for one fit. */
+static bool measure_boxes(const yb_lines_t *lines, double cell_m, const int *order, int count,
+                          yb_fractal_report_t *report)
+{
+    double size_m[YB_FRACTAL_SIZES];
+    double all[YB_FRACTAL_SIZES] = {0};
+    int sizes = 0;
+    const double most_m = most_share * (fmin(lines->width_m, lines->depth_m) + cell_m);
+    for (; sizes < YB_FRACTAL_SIZES && size_cells[sizes] * cell_m <= most_m; sizes++)
+        size_m[sizes] = size_cells[sizes] * cell_m;
+    for (int from = 0, to = 0; from < count; from = to) {
+        double counted[YB_FRACTAL_SIZES];
+        const double height_m = lines->line[order[from]].height_m;
+        while (to < count && lines->line[order[to]].height_m == height_m)
+            to++;
+        if (!yb_fractal_count_boxes(lines, order + from, to - from, cell_m, size_m, sizes, counted))
+            return false;
+        for (int k = 0; k < sizes; k++)
+            all[k] += counted[k];
+        report->level[report->level_count++] =
+            (yb_fractal_level_t){height_m, fit_boxes(size_m, counted, sizes)};
+    }
+    report->boxes = fit_boxes(size_m, all, sizes);
+    report->dimension = clamp_dimension(report->boxes.dimension);
+    return true;
+}
+
+/* Takes a line among the longest, of equals the first; index[] are the lines of report->contour. */
+static void offer_contour(yb_fractal_report_t *report, int *index, const yb_line_t *line, int at)
+{
+    const double length_m = yb_line_length_m(line);
+    int place = report->contour_count;
+    while (place > 0 && report->contour[place - 1].length_m < length_m)
+        place--;
+    if (place == YB_FRACTAL_CONTOURS)
+        return;
+    if (report->contour_count < YB_FRACTAL_CONTOURS)
+        report->contour_count++;
+    for (int i = report->contour_count - 1; i > place; i--) {
+        report->contour[i] = report->contour[i - 1];
+        index[i] = index[i - 1];
+    }
+    report->contour[place] = (yb_fractal_contour_t){
+        .height_m = line->height_m, .closed = line->closed, .length_m = length_m};
+    index[place] = at;
+}
+
+static bool measure_contours(const yb_lines_t *lines, double cell_m, const int *order, int count,
+                             yb_fractal_report_t *report)
+{
+    int index[YB_FRACTAL_CONTOURS] = {0};
+    for (int i = 0; i < count; i++)
+        offer_contour(report, index, &lines->line[order[i]], order[i]);
+    for (int i = 0; i < report->contour_count; i++) {
+        yb_fractal_contour_t *contour = &report->contour[i];
+        if (!yb_fractal_divider(&lines->line[index[i]], cell_m, &contour->divider))
+            return false;
+        if (contour->divider.sizes > 0)
+            contour->dimension = yb_fractal_from_loop(contour->divider.dimension);
+    }
+    return true;
+}
+
+static bool measure(const yb_lines_t *lines, double cell_m, bool contours,
+                    yb_fractal_report_t *report)
+{
+    int count = 0;
+    *report = (yb_fractal_report_t){.dimension = YB_FRACTAL_LEAST};
+    int *order = order_lines(lines, &count);
+    report->level = malloc(((size_t)count + 1) * sizeof(*report->level));
+    const bool good = order != NULL && report->level != NULL &&
+                      measure_boxes(lines, cell_m, order, count, report) &&
+                      (!contours || measure_contours(lines, cell_m, order, count, report));
+    free(order);
+    if (!good)
+        yb_fractal_free(report);
+    return good;
+}
+
+bool yb_fractal_of_lines(const yb_lines_t *lines, double cell_m, yb_fractal_report_t *report,
+                         yb_error_t *error)
+{
+    return measure(lines, cell_m, true, report) ||
+           yb_error_set(error, "not enough memory to measure the fractal dimension");
+}
+
+bool yb_fractal_of_grid(const yb_grid_t *grid, yb_fractal_report_t *report, yb_error_t *error)
+{
+    double level_m[YB_FRACTAL_LEVELS];
+    for (int i = 0; i < YB_FRACTAL_LEVELS; i++)
+        level_m[i] = yb_sketch_quantile(grid, (i + 1.0) / (YB_FRACTAL_LEVELS + 1));
+    yb_lines_t *lines = yb_lines_from_grid(grid, level_m, YB_FRACTAL_LEVELS, error);
+    if (lines == NULL)
+        return false;
+    const bool good = yb_fractal_of_lines(lines, grid->cell_m, report, error);
+    yb_lines_free(lines);
+    return good;
+}
+
+void yb_fractal_free(yb_fractal_report_t *report)
+{
+    free(report->level);
+    *report = (yb_fractal_report_t){.dimension = YB_FRACTAL_LEAST};
 }
 
 double yb_fractal_boxes(const yb_lines_t *lines, double cell_m)
 {
-    double log_size[SIZES];
-    double log_count[SIZES];
-    int used = 0;
-    for (int i = 0; i < SIZES; i++) {
-        boxes_t boxes = {.size_m = size_cells[i] * cell_m};
-        boxes.columns = 1 + (int)(lines->width_m / boxes.size_m);
-        boxes.rows = 1 + (int)(lines->depth_m / boxes.size_m);
-        boxes.met = malloc((size_t)boxes.columns * (size_t)boxes.rows);
-        if (boxes.met == NULL)
-            break;
-        double count = count_boxes(lines, &boxes, walk_cells * cell_m);
-        free(boxes.met);
-        if (count > 0) {
-            log_size[used] = -log(size_cells[i]);
-            log_count[used++] = log(count);
-        }
-    }
-    return clamp_dimension(used > 1 ? fit_slope(log_size, log_count, used) : 0);
-}
-
-/* Steps of one length along the line until its end, the last part included. */
-static double divider_steps(const yb_line_t *line, double step_m)
-{
-    double steps = 0;
-    yb_place_t foot = line->place[0];
-    int places = line->closed ? line->count + 1 : line->count;
-    for (int i = 1; i < places; i++) {
-        yb_place_t next = line->place[i % line->count];
-        double away = hypot(next.x_m - foot.x_m, next.y_m - foot.y_m);
-        while (away >= step_m) {
-            foot.x_m += (next.x_m - foot.x_m) * step_m / away;
-            foot.y_m += (next.y_m - foot.y_m) * step_m / away;
-            away -= step_m;
-            steps++;
-        }
-        if (i == places - 1)
-            steps += away / step_m;
-    }
-    return steps;
-}
-
-double yb_fractal_divider(const yb_line_t *line, double cell_m)
-{
-    double log_size[SIZES];
-    double log_steps[SIZES];
-    int used = 0;
-    for (int i = 0; i < SIZES && line->count > 1; i++) {
-        double steps = divider_steps(line, size_cells[i] * cell_m);
-        if (steps < 4)
-            break; /* the line is too short for this opening and for all wider ones */
-        log_size[used] = -log(size_cells[i]);
-        log_steps[used++] = log(steps);
-    }
-    return clamp_dimension(used > 1 ? fit_slope(log_size, log_steps, used) : 0);
+    yb_fractal_report_t report;
+    if (!measure(lines, cell_m, false, &report))
+        return YB_FRACTAL_LEAST;
+    const double dimension = report.dimension;
+    yb_fractal_free(&report);
+    return dimension;
 }
 
 double yb_fractal_from_loop(double loop)
@@ -148,75 +229,42 @@ uint8_t yb_fractal_coded(double dimension)
     return (uint8_t)lround(fmin(fmax(dimension - 1, 0) * 256, 255));
 }
 
-/* Where the gain is measured: a place, and its neighbours GAIN_LAG steps to both sides. */
-static double place_steps(int index, int size)
+static json_t *fit_json(const yb_fractal_fit_t *fit)
 {
-    return GAIN_LAG + (size - 2 * GAIN_LAG) * (index + 0.5) / GAIN_PLACES;
+    if (fit->sizes == 0)
+        return json_null();
+    return json_pack("{s:f, s:f, s:f, s:f, s:i}", "dimension", fit->dimension, "r2", fit->r2,
+                     "from_m", fit->from_m, "to_m", fit->to_m, "sizes", fit->sizes);
 }
 
-static double map_roughness_m2(const yb_map_t *map)
+static json_t *contours_json(const yb_fractal_report_t *report)
 {
-    int east = map->east_q8 >> 8;
-    int north = map->north_q8 >> 8;
-    double sum = 0;
-    for (int row = 0; row < GAIN_PLACES; row++)
-        for (int column = 0; column < GAIN_PLACES; column++) {
-            int x = (int)(256 * place_steps(column, east));
-            int y = (int)(256 * place_steps(row, north));
-            double middle = yb_map_height(map, (uint16_t)x, (uint16_t)y);
-            double bend_x = yb_map_height(map, (uint16_t)(x - GAIN_LAG * 256), (uint16_t)y) +
-                            yb_map_height(map, (uint16_t)(x + GAIN_LAG * 256), (uint16_t)y) -
-                            2 * middle;
-            double bend_y = yb_map_height(map, (uint16_t)x, (uint16_t)(y - GAIN_LAG * 256)) +
-                            yb_map_height(map, (uint16_t)x, (uint16_t)(y + GAIN_LAG * 256)) -
-                            2 * middle;
-            sum += bend_x * bend_x + bend_y * bend_y;
-        }
-    double metres = yb_paper_metres(map->cell) / 256;
-    return sum * metres * metres;
-}
-
-static double grid_roughness_m2(const yb_grid_t *grid, const yb_paper_t *paper)
-{
-    double step_x = yb_grid_width_m(grid) / paper->east;
-    double step_y = yb_grid_depth_m(grid) / paper->north;
-    double sum = 0;
-    for (int row = 0; row < GAIN_PLACES; row++)
-        for (int column = 0; column < GAIN_PLACES; column++) {
-            double x = place_steps(column, paper->east) * step_x;
-            double y = place_steps(row, paper->north) * step_y;
-            double lag_x = GAIN_LAG * step_x;
-            double lag_y = GAIN_LAG * step_y;
-            double middle = yb_grid_height(grid, x, y);
-            double bend_x = yb_grid_height(grid, x - lag_x, y) +
-                            yb_grid_height(grid, x + lag_x, y) - 2 * middle;
-            double bend_y = yb_grid_height(grid, x, y - lag_y) +
-                            yb_grid_height(grid, x, y + lag_y) - 2 * middle;
-            sum += bend_x * bend_x + bend_y * bend_y;
-        }
-    return sum;
-}
-
-bool yb_fractal_gain(yb_paper_t *paper, const yb_grid_t *grid)
-{
-    yb_error_t error;
-    double wanted = grid_roughness_m2(grid, paper);
-    int low = 0; /* the gain lies in [low, high): roughness grows with it */
-    int high = 256;
-    if (paper->east <= 2 * GAIN_LAG || paper->north <= 2 * GAIN_LAG)
-        return true;
-    for (int round = 0; round < GAIN_ROUNDS && high - low > 1; round++) {
-        int middle = (low + high) / 2;
-        paper->gain = (uint8_t)middle;
-        yb_code_file_t *file = yb_paper_check(paper, &error);
-        if (file == NULL)
-            return false;
-        if (map_roughness_m2(&file->map) > wanted)
-            high = middle;
-        else
-            low = middle;
-        yb_code_file_free(file);
+    json_t *list = json_array();
+    for (int i = 0; i < report->contour_count; i++) {
+        const yb_fractal_contour_t *contour = &report->contour[i];
+        json_array_append_new(
+            list,
+            json_pack("{s:f, s:b, s:f, s:o, s:o}", "height_m", contour->height_m, "closed",
+                      contour->closed, "length_m", contour->length_m, "divider",
+                      fit_json(&contour->divider), "dimension",
+                      contour->divider.sizes > 0 ? json_real(contour->dimension) : json_null()));
     }
-    paper->gain = (uint8_t)low;
-    return true;
+    return list;
+}
+
+json_t *yb_fractal_json(const yb_fractal_report_t *report)
+{
+    json_t *levels = json_array();
+    for (int i = 0; i < report->level_count; i++)
+        json_array_append_new(levels, json_pack("{s:f, s:o}", "height_m", report->level[i].height_m,
+                                                "boxes", fit_json(&report->level[i].boxes)));
+    json_t *root = json_pack("{s:f, s:f, s:o, s:o, s:o}", "dimension", report->dimension, "hurst",
+                             yb_fractal_hurst(report->dimension), "boxes", fit_json(&report->boxes),
+                             "levels", levels, "contours", contours_json(report));
+    if (report->boxes.sizes > 0) {
+        json_object_set_new(root, "r2", json_real(report->boxes.r2));
+        json_object_set_new(root, "from_m", json_real(report->boxes.from_m));
+        json_object_set_new(root, "to_m", json_real(report->boxes.to_m));
+    }
+    return root;
 }

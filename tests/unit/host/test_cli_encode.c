@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include <math.h>
 #include <sys/wait.h>
 
 #include <jansson.h>
@@ -185,6 +186,16 @@ static void test_info_adds_up(void **state)
         json_integer_value(value);
     assert_int_equal(bits, 8 * number(info, "bytes"));
     assert_int_equal(json_array_size(json_object_get(info, "contours")), number(info, "m"));
+    const json_t *fractal = json_object_get(made, "fractal");
+    const double dimension = json_number_value(json_object_get(fractal, "dimension"));
+    assert_true(dimension == json_number_value(json_object_get(made, "dimension")));
+    assert_true(fabs(dimension - json_number_value(json_object_get(info, "dimension"))) < 0.003);
+    assert_true(fabs(2 - dimension - json_number_value(json_object_get(info, "hurst"))) < 0.003);
+    assert_true(json_number_value(json_object_get(fractal, "r2")) > 0.9);
+    assert_int_equal(json_array_size(json_object_get(fractal, "levels")), 9);
+    const json_t *line = json_array_get(json_object_get(fractal, "contours"), 0);
+    assert_true(json_is_boolean(json_object_get(line, "closed")));
+    assert_true(json_number_value(json_object_get(line, "length_m")) > 1000);
     json_decref(made);
     json_decref(info);
     snprintf(arguments, sizeof(arguments), "info - < %s", scratch_path("out.yb"));

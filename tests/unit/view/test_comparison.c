@@ -53,6 +53,7 @@ static void a_map_is_faithful_to_itself(void **state)
         /* The lattice and the mesh cut the same surface into other triangles. */
         assert_true(fidelity.k > 0.95);
         assert_true(fidelity.k <= 1);
+        assert_true(fidelity.detail_spectrum < 1e-6);
         yb_fidelity_free(&fidelity);
         yb_comparison_free(&comparison);
         yb_grid_free(grid);

@@ -2,6 +2,7 @@
 
 import json
 import math
+import math
 import os
 import pathlib
 import struct
@@ -156,6 +157,9 @@ class Verbs(unittest.TestCase):
                                     "--sheet", self.room / "sheet.png"))
         self.assertLess(said["detail"]["rmse_m"], 0.01)
         self.assertGreater(said["k"], 0.7)
+        self.assertLess(said["spectrum"]["detail"], 0.01)
+        off = [abs(math.log2(lag["smooth_m"] / lag["reference_m"])) for lag in said["roughness"]]
+        self.assertAlmostEqual(said["spectrum"]["smooth"], sum(off) / len(off), 6)
         self.assertEqual(said["bytes"], len(self.map.read_bytes()))
         self.assertEqual(said["body_bits"], 12 * said["points"] + 20 * said["contours"] + 8)
         self.assertEqual([round(contour["height_m"]) for contour in said["contour"]],
