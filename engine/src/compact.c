@@ -20,10 +20,12 @@ enum field {
     CELL_EXPONENT,
     CELL_MANTISSA,
     SPACING,
-    SHAPE,
+    OBLONG,
+    SHORTER,
     SHORT_SIDE,
     UNIT_EXPONENT,
     UNIT_MANTISSA,
+    COARSE,
     INTERVAL,
     BASE,
     BASE_DOWN,
@@ -159,12 +161,10 @@ static uint8_t gain_of(int coded)
 static yb_status_t take_short_side(yb_map_t *map, yb_load_t *load, int value)
 {
     uint16_t side_q8 = (uint16_t)((value + 1) * load->spacing << 8);
-    if (side_q8 > map->east_q8)
-        return YB_ERR_CORRUPT;
-    if (load->shape == 1)
-        map->north_q8 = side_q8;
-    else
+    if (load->narrow)
         map->east_q8 = side_q8;
+    else
+        map->north_q8 = side_q8;
     return expect_one_of(load, UNIT_EXPONENT, 16);
 }
 
@@ -191,11 +191,13 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, int value)
         load->spacing = (uint8_t)(value + 1);
         map->east_q8 = (uint16_t)(255 / load->spacing * load->spacing << 8);
         map->north_q8 = map->east_q8;
-        return expect_one_of(load, SHAPE, 3);
-    case SHAPE:
-        load->shape = (uint8_t)value;
+        return expect(load, OBLONG, BIT, MODEL_OBLONG);
+    case OBLONG:
         return value == 0 ? expect_one_of(load, UNIT_EXPONENT, 16)
-                          : expect_one_of(load, SHORT_SIDE, columns_of(map, load));
+                          : expect_one_of(load, SHORTER, 2);
+    case SHORTER:
+        load->narrow = value != 0;
+        return expect_one_of(load, SHORT_SIDE, columns_of(map, load));
     case SHORT_SIDE:
         return take_short_side(map, load, value);
     case UNIT_EXPONENT:
@@ -203,9 +205,13 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, int value)
         return expect_one_of(load, UNIT_MANTISSA, 16);
     case UNIT_MANTISSA:
         map->unit = (uint16_t)(map->unit | 16 | value);
-        return expect_one_of(load, INTERVAL, 4);
+        return expect(load, COARSE, BIT, MODEL_COARSE);
+    case COARSE:
+        load->interval = 0;
+        return value == 0 ? expect(load, BASE, NUMBER, MODEL_BASE)
+                          : expect_one_of(load, INTERVAL, 3);
     case INTERVAL:
-        load->interval = (uint8_t)value;
+        load->interval = (uint8_t)(value + 1);
         return expect(load, BASE, NUMBER, MODEL_BASE);
     case BASE:
         load->base = value;
@@ -219,7 +225,7 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, int value)
         return expect_one_of(load, GAIN, 16);
     case GAIN:
         load->gain = gain_of(value);
-        return expect_one_of(load, STRAIGHT, 2);
+        return expect(load, STRAIGHT, BIT, MODEL_STRAIGHT);
     case STRAIGHT:
         map->smooth = value == 0;
         return expect_one_of(load, VERTICES, 16);

@@ -38,6 +38,8 @@ static void spend(coder_t *coder, double share)
         coder->bits->of[coder->kind] -= log2(share);
 }
 
+#include <stdio.h>
+static bool dump;
 static void add(coder_t *coder, uint32_t value)
 {
     size_t at = coder->size;
@@ -72,6 +74,7 @@ static void put_bit(coder_t *coder, int model, int bit)
 {
     uint32_t range = coder->range;
     uint32_t bound = model_bound(coder->model[model], range);
+    if (dump) fprintf(stderr, "D %d %d\n", model, bit);
     coder->model[model] = model_learn(coder->model[model], bit);
     spend(coder, (double)(bit != 0 ? range - bound : bound) / range);
     if (bit != 0)
@@ -186,9 +189,11 @@ static void put_shape(coder_t *coder, const yb_paper_t *paper)
     int rows = rows_of(paper);
     if (fix_max(columns, rows) != most)
         coder->failed = true;
-    put_uniform(coder, rows < columns ? 1 : columns < rows ? 2 : 0, 3);
-    if (rows != columns)
-        put_uniform(coder, fix_min(columns, rows) - 1, most);
+    put_bit(coder, MODEL_OBLONG, rows != columns);
+    if (rows == columns)
+        return;
+    put_uniform(coder, columns < rows, 2);
+    put_uniform(coder, fix_min(columns, rows) - 1, most);
 }
 
 /* Least v with so many vertices within its class. */
@@ -223,13 +228,15 @@ static void put_header(coder_t *coder, const yb_paper_t *paper)
     put_shape(coder, paper);
     put_uniform(coder, paper->unit >> 12, 16);
     put_uniform(coder, (paper->unit & 0xfff) - 16, 16);
-    put_uniform(coder, paper->interval, 4);
+    put_bit(coder, MODEL_COARSE, paper->interval > 0);
+    if (paper->interval > 0)
+        put_uniform(coder, paper->interval - 1, 3);
     put_number(coder, MODEL_BASE, abs(base));
     if (base != 0)
         put_uniform(coder, base < 0, 2);
     put_uniform(coder, paper->dimension / 8, 32);
     put_uniform(coder, coded_gain(paper->gain), 16);
-    put_uniform(coder, paper->straight, 2);
+    put_bit(coder, MODEL_STRAIGHT, paper->straight);
     put_uniform(coder, paper->vertices > 0 ? vertex_class(paper->vertices) : paper->vertex_class,
                 16);
 }
@@ -542,6 +549,8 @@ size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_
         return 0;
     for (int i = 0; i < MODELS; i++)
         coder.model[i] = model_first(i);
+    dump = getenv("YB_DUMP") && paper->vertices > 0;
+    if (dump) fprintf(stderr, "NEW\n");
     code[coder.size++] = YB_FORMAT_VERSION << 4 | YB_COMPACT;
     narrow(&coder, 0, 1);
     put_header(&coder, paper);

@@ -1,6 +1,7 @@
 #include "search.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -547,6 +548,12 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
         }
     }
     *paper = state->best;
+    if (getenv("YB_DUMP")) {
+        uint8_t code[4096]; yb_bits_t b; yb_paper_code(paper, code, 4096, &b);
+        fprintf(stderr, "BITS %d sp %d unit %.1f:", paper->contour_count, paper->spacing, yb_paper_metres(paper->unit)/search->grid->std_m);
+        for (int i = 0; i < YB_BITS_KINDS; i++) fprintf(stderr, " %.1f", b.of[i]);
+        fprintf(stderr, " all %.1f\n", b.all);
+    }
     free(state);
     return best;
 }

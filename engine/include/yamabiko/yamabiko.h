@@ -220,9 +220,9 @@ typedef struct {
     uint8_t header[14];
     /* private: the compact profile (compact.c) */
     uint8_t element, classes, left;
-    uint8_t spacing, shape, interval;
+    uint8_t spacing, interval;
     uint8_t sector, turn_context, length_context, corner_at;
-    bool open;
+    bool open, narrow;
     uint16_t value, recent, lines, spots, run;
     int16_t x, y, start_x, start_y, way, length, height;
     yb_ring_t last; /* step */
