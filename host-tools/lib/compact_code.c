@@ -34,7 +34,7 @@ typedef struct {
 /* Notes a decision that narrows the interval to `share`. */
 static void spend(coder_t *coder, double share)
 {
-    if (coder->bits != NULL)
+    if (coder->bits != NULL && coder->bits->by_kind)
         coder->bits->of[coder->kind] -= log2(share);
 }
 
@@ -196,8 +196,7 @@ static void put_shape(coder_t *coder, const yb_paper_t *paper)
     put_uniform(coder, fix_min(columns, rows) - 1, most);
 }
 
-/* Least v with so many vertices within its class. */
-static int vertex_class(int vertices)
+int yb_compact_vertex_class(int vertices)
 {
     if (vertices <= 256)
         return (fix_max(vertices, 1) - 1) / 32;
@@ -237,7 +236,7 @@ static void put_header(coder_t *coder, const yb_paper_t *paper)
     put_uniform(coder, paper->dimension / 8, 32);
     put_uniform(coder, coded_gain(paper->gain), 16);
     put_bit(coder, MODEL_STRAIGHT, paper->straight);
-    put_uniform(coder, paper->vertices > 0 ? vertex_class(paper->vertices) : paper->vertex_class,
+    put_uniform(coder, paper->vertices > 0 ? yb_compact_vertex_class(paper->vertices) : paper->vertex_class,
                 16);
 }
 
@@ -543,8 +542,6 @@ static uint8_t crc8(const uint8_t *bytes, size_t count)
 size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits)
 {
     coder_t coder = {.code = code, .room = room, .range = 1, .bits = bits};
-    if (bits != NULL)
-        memset(bits, 0, sizeof(*bits));
     if (room < 4 || !on_lattice(paper))
         return 0;
     for (int i = 0; i < MODELS; i++)

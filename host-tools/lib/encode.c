@@ -1,8 +1,10 @@
 #include "encode.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "fractal.h"
 #include "compact_code.h"
@@ -12,12 +14,12 @@
 #include "sketch.h"
 
 enum {
-    JUDGE_SIDE = 48,
-    DRAFTS = 3,          /* kept of all that are tried */
     FREE_LEVELS = 6,     /* drafts have 1 to so many levels when their heights are free */
     MEASURED_LEVELS = 9, /* for the fractal dimension */
-    BASE_TRIALS = 8000,  /* at effort 1 */
-    FEW_BYTES = 40       /* below that, corner heights cost too much to begin with */
+    BASE_TRIALS = 14000, /* at effort 1 */
+    FEW_BYTES = 40,      /* below that, corner heights cost too much to begin with */
+    DRAFTS = 4,          /* one for each spacing of the lattice */
+    FINALISTS = 2
 };
 
 /* Tolerances of the drafts as shares of the frame's longer side. */
@@ -26,15 +28,17 @@ enum {
     TOLERANCES = sizeof(tolerances) / sizeof(tolerances[0])
 };
 
-/* Temperatures of the search, as shares of the relief's standard deviation. */
-static const double hot = 0.02;
-static const double cold = 0.0005;
-/* Part of the trials spent on all drafts before the best is chosen. */
-static const double first_part = 0.3;
+/* Temperatures of the search, as shares of the error. */
+static const double hot = 0.0015;
+static const double warm = 0.0008;
+static const double cold = 0.0001;
+/* Part of the trials spent on all drafts before the finalists are chosen. */
+static const double first_part = 0.4;
 
 typedef struct {
     yb_paper_t paper;
-    double score_m;
+    int spacing;
+    double score_m; /* below 0: there is none */
 } draft_t;
 
 typedef struct {
@@ -44,10 +48,21 @@ typedef struct {
     yb_judge_t *judge;
     double level_m[YB_ENCODE_MOST_LEVELS]; /* where lines must lie; none: anywhere */
     int levels;
-    draft_t draft[DRAFTS]; /* the best so far, best first */
+    draft_t draft[DRAFTS];
     int drafts;
-    double begun, part; /* of the progress */
+    int side;     /* of the judges' samples */
+    double begun; /* share of the work that is done */
 } encoder_t;
+
+/* Those who search at the same time. */
+typedef struct {
+    encoder_t *encoder;
+    pthread_mutex_t lock;
+    int next, count; /* of the drafts */
+    yb_search_t pattern;
+    yb_progress_t progress;
+    bool failed;
+} crew_t;
 
 static bool choose_levels(encoder_t *encoder, yb_error_t *error)
 {
@@ -82,20 +97,57 @@ static bool choose_levels(encoder_t *encoder, yb_error_t *error)
     return true;
 }
 
+/* Whether all levels are multiples of a height. */
+static bool divides(const encoder_t *encoder, double height_m)
+{
+    for (int i = 0; i < encoder->levels; i++) {
+        double multiple = encoder->level_m[i] / height_m;
+        if (fabs(multiple - round(multiple)) > 0.001 * fabs(multiple) + 1e-9)
+            return false;
+    }
+    return true;
+}
+
+/* Unit and interval of the compact profile: where lines must lie at given levels, a part of the
+ * least step between two of them if it fits all; else a fifth of the relief's deviation.
+ */
+static void choose_unit(const encoder_t *encoder, yb_paper_t *paper)
+{
+    const yb_grid_t *grid = encoder->grid;
+    double step_m = encoder->levels > 0 ? encoder->level_m[0] : 0;
+    for (int i = 1; i < encoder->levels; i++)
+        step_m = fmin(step_m, encoder->level_m[i] - encoder->level_m[i - 1]);
+    paper->unit = yb_compact_unit(encoder->levels > 0 ? (double)(grid->high_m - grid->low_m) / 256
+                                                      : grid->std_m / 5);
+    for (int shift = 2; shift >= 0 && step_m > 0; shift--) {
+        uint16_t unit = yb_compact_unit(step_m / (1 << shift));
+        double unit_m = yb_paper_metres(unit);
+        if (fabs(unit_m * (1 << shift) / step_m - 1) < 1e-9 && divides(encoder, step_m)) {
+            paper->unit = unit;
+            paper->interval = (uint8_t)shift;
+            break;
+        }
+    }
+    /* Well below the lowest height, and a multiple of all intervals. */
+    double range_m = (double)(grid->high_m - grid->low_m);
+    double base_m = (double)grid->low_m - range_m;
+    paper->base = (int)floor(base_m / yb_paper_metres(paper->unit) / 8) * 8;
+}
+
 static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing)
 {
     const yb_grid_t *grid = encoder->grid;
+    const yb_encode_task_t *task = encoder->task;
     double width = yb_grid_width_m(grid);
     double depth = yb_grid_depth_m(grid);
     yb_sketch_begin(paper, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
-    paper->seed = encoder->task->seed;
-    paper->profile = encoder->task->profile;
+    paper->seed = task->seed;
+    paper->profile = task->profile;
     if (paper->profile == YB_COMPACT) {
-        const char *e = getenv("YB_UNIT");
         paper->cell = yb_compact_cell(fmax(width / paper->east, depth / paper->north));
-        paper->unit = yb_compact_unit(grid->std_m / (e ? atof(e) : 5));
-        paper->base = (int)floor((double)grid->low_m / yb_paper_metres(paper->unit)) - 20;
-        paper->vertex_class = 7;
+        paper->vertex_class = (uint8_t)yb_compact_vertex_class(task->vertices > 0 ? task->vertices
+                                                                                  : 255);
+        choose_unit(encoder, paper);
     }
     const double corner[YB_CORNERS][2] = {{0, 0}, {width, 0}, {width, depth}, {0, depth}};
     double sum = 0;
@@ -105,28 +157,19 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing
         sum += height;
     }
     paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
-    paper->corners = encoder->task->most_bytes >= FEW_BYTES ? 0xf : 0;
+    paper->corners = task->most_bytes >= FEW_BYTES ? 0xf : 0;
 }
 
-/* Keeps a draft if it is among the best. */
-static void offer_draft(encoder_t *encoder, const yb_paper_t *paper)
+/* Keeps a draft if it is the best of its spacing. */
+static void offer_draft(encoder_t *encoder, draft_t *draft, const yb_paper_t *paper)
 {
     uint8_t code[YB_PAPER_MOST_BYTES];
     size_t size = yb_paper_code(paper, code, encoder->task->most_bytes, NULL);
-    double rmse = size > 0 ? yb_judge_score_m(encoder->judge, code, size) : -1;
-    if (rmse < 0)
+    double score = size > 0 ? yb_judge_score_m(encoder->judge, code, size) : -1;
+    if (score < 0 || (draft->score_m >= 0 && draft->score_m <= score))
         return;
-    int at = encoder->drafts;
-    while (at > 0 && encoder->draft[at - 1].score_m > rmse)
-        at--;
-    if (at >= DRAFTS)
-        return;
-    if (encoder->drafts < DRAFTS)
-        encoder->drafts++;
-    memmove(&encoder->draft[at + 1], &encoder->draft[at],
-            (size_t)(encoder->drafts - 1 - at) * sizeof(draft_t));
-    encoder->draft[at].paper = *paper;
-    encoder->draft[at].score_m = rmse;
+    draft->paper = *paper;
+    draft->score_m = score;
 }
 
 /* Drafts of one set of lines, coarse and fine. */
@@ -134,16 +177,37 @@ static void draft_lines(encoder_t *encoder, const yb_lines_t *lines)
 {
     double longest = fmax(lines->width_m, lines->depth_m);
     size_t bytes = encoder->task->most_bytes;
-    const char *g = getenv("YB_SPACING");
-    for (int spacing = g ? atoi(g) : 2; spacing <= (g ? atoi(g) : 8); spacing *= 2)
+    for (int d = 0; d < encoder->drafts; d++)
         for (int i = 0; i < TOLERANCES; i++) {
             yb_paper_t paper;
-            begin_paper(encoder, &paper, spacing);
+            begin_paper(encoder, &paper, encoder->draft[d].spacing);
             yb_sketch_spot(&paper, lines, yb_sketch_summit(encoder->grid),
                            (double)encoder->grid->high_m, bytes);
             yb_sketch_lines(&paper, lines, tolerances[i] * longest, bytes);
-            offer_draft(encoder, &paper);
+            offer_draft(encoder, &encoder->draft[d], &paper);
         }
+}
+
+/* Spacings of the lattice: the more bytes, the finer. */
+static void choose_spacings(encoder_t *encoder)
+{
+    static const struct {
+        size_t least_bytes;
+        int spacing[DRAFTS];
+    } by_size[] = {{300, {2, 3, 4, 5}},
+                   {150, {3, 4, 5, 6}},
+                   {75, {4, 5, 6, 8}},
+                   {45, {5, 6, 8, 10}},
+                   {0, {6, 8, 10, 13}}};
+    static const int of_paper[] = {2, 4, 8};
+    bool compact = encoder->task->profile == YB_COMPACT;
+    int size = 0;
+    while (encoder->task->most_bytes < by_size[size].least_bytes)
+        size++;
+    encoder->drafts = compact ? DRAFTS : 3;
+    for (int i = 0; i < encoder->drafts; i++)
+        encoder->draft[i] =
+            (draft_t){.spacing = compact ? by_size[size].spacing[i] : of_paper[i], .score_m = -1};
 }
 
 static bool draft_levels(encoder_t *encoder, const double *level_m, int levels, yb_error_t *error)
@@ -157,8 +221,28 @@ static bool draft_levels(encoder_t *encoder, const double *level_m, int levels, 
     return true;
 }
 
+static int better_first(const void *a, const void *b)
+{
+    const draft_t *first = a;
+    const draft_t *second = b;
+    if ((first->score_m < 0) != (second->score_m < 0))
+        return first->score_m < 0 ? 1 : -1;
+    if (first->score_m != second->score_m)
+        return first->score_m < second->score_m ? -1 : 1;
+    return first->spacing - second->spacing;
+}
+
+/* Best first; impossible ones are forgotten. */
+static void sort_drafts(encoder_t *encoder)
+{
+    qsort(encoder->draft, (size_t)encoder->drafts, sizeof(draft_t), better_first);
+    while (encoder->drafts > 0 && encoder->draft[encoder->drafts - 1].score_m < 0)
+        encoder->drafts--;
+}
+
 static bool make_drafts(encoder_t *encoder, yb_error_t *error)
 {
+    choose_spacings(encoder);
     if (encoder->levels > 0 && !draft_levels(encoder, encoder->level_m, encoder->levels, error))
         return false;
     for (int levels = 1; levels <= FREE_LEVELS && encoder->levels == 0; levels++) {
@@ -168,54 +252,89 @@ static bool make_drafts(encoder_t *encoder, yb_error_t *error)
         if (!draft_levels(encoder, level_m, levels, error))
             return false;
     }
+    sort_drafts(encoder);
     if (encoder->drafts == 0)
         return yb_error_set(error, "no draft of this relief fits %zu bytes",
                             encoder->task->most_bytes);
     return true;
 }
 
-static void report(void *context, double share)
-{
-    const encoder_t *encoder = context;
-    if (encoder->task->progress != NULL)
-        encoder->task->progress(encoder->task->context, encoder->begun + encoder->part * share);
-}
-
-static void better_draft(encoder_t *encoder, draft_t *draft, long trials, double begun, double part)
+static void search_draft(const encoder_t *encoder, yb_judge_t *judge, draft_t *draft,
+                         yb_search_t search)
 {
     uint16_t level[YB_ENCODE_MOST_LEVELS];
     for (int i = 0; i < encoder->levels; i++)
-        level[i] = yb_paper_height(&draft->paper, encoder->level_m[i]);
-    encoder->begun = begun;
-    encoder->part = part;
-    yb_search_t search = {.grid = encoder->grid,
-                          .judge = encoder->judge,
-                          .most_bytes = encoder->task->most_bytes,
-                          .pinned = getenv("YB_NOPIN") == NULL && draft->paper.contour_count > 0 ? 1 : 0,
-                          .level = level,
-                          .levels = encoder->levels,
-                          .trials = trials,
-                          .hot = hot,
-                          .cold = cold,
-                          .seed = 1,
-                          .progress = report,
-                          .context = encoder};
+        level[i] = yb_paper_line_height(&draft->paper, encoder->level_m[i]);
+    search.grid = encoder->grid;
+    search.judge = judge;
+    search.most_bytes = encoder->task->most_bytes;
+    search.level = level;
+    search.levels = encoder->levels;
     draft->score_m = yb_search_run(&search, &draft->paper);
 }
 
-/* A short search from each draft, a long one from what became the best. */
-static draft_t *search_best(encoder_t *encoder, long trials)
+/* Takes drafts from the encoder until all are searched. */
+static void *work(void *context)
 {
-    draft_t *best = &encoder->draft[0];
-    for (int i = 0; i < encoder->drafts; i++) {
-        double part = first_part / encoder->drafts;
-        better_draft(encoder, &encoder->draft[i], (long)(part * (double)trials), i * part, part);
-        if (encoder->draft[i].score_m < best->score_m)
-            best = &encoder->draft[i];
+    crew_t *crew = context;
+    encoder_t *encoder = crew->encoder;
+    yb_judge_t *judge = yb_judge_new(encoder->grid, encoder->side);
+    for (;;) {
+        pthread_mutex_lock(&crew->lock);
+        int next = crew->next++;
+        pthread_mutex_unlock(&crew->lock);
+        if (next >= crew->count)
+            break;
+        yb_search_t search = crew->pattern;
+        search.seed += (uint64_t)next;
+        search.progress = &crew->progress;
+        if (judge != NULL)
+            search_draft(encoder, judge, &encoder->draft[next], search);
+        else
+            crew->failed = true;
     }
-    better_draft(encoder, best, (long)((1 - first_part) * (double)trials), first_part,
-                 1 - first_part);
-    return best;
+    yb_judge_free(judge);
+    return NULL;
+}
+
+/* Searches from the first `count` drafts, two at a time where there are processors. What comes out
+ * depends on neither their number nor the clock: each search has its own random numbers.
+ */
+static bool search_drafts(encoder_t *encoder, int count, double from, double share)
+{
+    long trials = (long)(share * (double)((long)BASE_TRIALS << (encoder->task->effort - 1)));
+    crew_t crew = {.encoder = encoder,
+                   .count = count,
+                   .pattern = {.trials = trials / count,
+                               .hot = from,
+                               .cold = cold,
+                               .seed = from < hot ? 1 + DRAFTS : 1},
+                   .progress = {.report = encoder->task->progress,
+                                .context = encoder->task->context,
+                                .begun = encoder->begun,
+                                .part = share / count}};
+    pthread_mutex_init(&crew.lock, NULL);
+    crew.progress.lock = &crew.lock;
+    pthread_t other;
+    bool two = count > 1 && sysconf(_SC_NPROCESSORS_ONLN) > 1 &&
+               pthread_create(&other, NULL, work, &crew) == 0;
+    work(&crew);
+    if (two)
+        pthread_join(other, NULL);
+    pthread_mutex_destroy(&crew.lock);
+    encoder->begun += share;
+    sort_drafts(encoder);
+    return !crew.failed;
+}
+
+/* A short search from each draft, long ones from what became the best. */
+static bool search_best(encoder_t *encoder)
+{
+    if (!search_drafts(encoder, encoder->drafts, hot, first_part))
+        return false;
+    if (encoder->drafts > FINALISTS)
+        encoder->drafts = FINALISTS;
+    return search_drafts(encoder, encoder->drafts, warm, 1 - first_part);
 }
 
 /* Dimension of the relief's contour lines in full detail. */
@@ -238,11 +357,12 @@ static bool measure_dimension(const encoder_t *encoder, double *dimension, yb_er
 
 static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error_t *error)
 {
-    long trials = (long)BASE_TRIALS << (encoder->task->effort - 1);
     if (!choose_levels(encoder, error) || !make_drafts(encoder, error) ||
         !measure_dimension(encoder, &result->dimension, error))
         return false;
-    draft_t *best = search_best(encoder, trials);
+    if (!search_best(encoder))
+        return yb_error_set(error, "out of memory");
+    draft_t *best = &encoder->draft[0];
     best->paper.dimension = yb_fractal_coded(result->dimension);
     if (best->paper.profile == YB_COMPACT)
         best->paper.dimension = yb_compact_dimension(best->paper.dimension);
@@ -254,8 +374,14 @@ static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error
         return false;
     result->rmse_m = yb_judge_map_rmse_m(&result->code->map, encoder->grid);
     result->std_m = encoder->grid->std_m;
-    result->trials = trials;
+    result->trials = (long)BASE_TRIALS << (encoder->task->effort - 1);
     return true;
+}
+
+/* Samples on a side: the more points a code may have, the closer. */
+static int judge_side(size_t bytes)
+{
+    return (int)fmin(fmax(48 * sqrt((double)bytes / 100), 40), 96);
 }
 
 static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_encode_task_t *task,
@@ -271,7 +397,8 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
     encoder->grid = grid;
     encoder->task = task;
     encoder->given = given;
-    encoder->judge = yb_judge_new(grid, JUDGE_SIDE);
+    encoder->side = judge_side(task->most_bytes);
+    encoder->judge = yb_judge_new(grid, encoder->side);
     bool good = encoder->judge != NULL;
     if (!good)
         yb_error_set(error, "out of memory");

@@ -22,11 +22,13 @@ enum {
 typedef struct {
     size_t most_bytes;
     yb_profile_t profile;
+    int vertices;      /* most of the mesh; 0: 255, what every device holds */
     int levels;        /* so many evenly spaced heights for lines; 0: see below */
     double interval_m; /* lines at multiples of it; 0: heights are the encoder's choice */
     uint8_t seed;      /* of the map's noise */
     int effort;        /* 1 to 9: the number of trials doubles with each step */
-    void (*progress)(void *context, double share); /* may be NULL */
+    /* Called now and then, perhaps from another thread, never twice at once. May be NULL. */
+    void (*progress)(void *context, double share);
     void *context;
 } yb_encode_task_t;
 

@@ -4,10 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sketch.h"
+
 /* What a difference of rise from one sample to the next counts against one of height: enough to
  * keep the search from hiding cliffs where few samples see them.
  */
 static const double slope_weight = 0.5;
+/* Share of the samples that the highest place counts as: it is what people look at first. */
+static const double summit_weight = 0.003;
 
 enum {
     MOST_SIDE = 256
@@ -28,6 +32,8 @@ struct yb_judge {
     float *found_m;
     float metres_per_q8;
     float base_m;
+    double summit_east, summit_north; /* its place as shares of the frame */
+    double summit_m;
     yb_map_t map;
     yb_load_t load;
 };
@@ -49,12 +55,24 @@ yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side)
         yb_judge_free(judge);
         return NULL;
     }
+    yb_place_t summit = yb_sketch_summit(grid);
+    judge->summit_east = summit.x_m / judge->width_m;
+    judge->summit_north = summit.y_m / judge->depth_m;
+    judge->summit_m = (double)grid->high_m;
     for (int row = 0; row < judge->up.count; row++)
         for (int column = 0; column < judge->across.count; column++)
             judge->truth_m[row * judge->across.count + column] =
                 (float)yb_grid_height(grid, column * judge->width_m / (judge->across.count - 1),
                                       row * judge->depth_m / (judge->up.count - 1));
     return judge;
+}
+
+static double summit_error_m(const yb_judge_t *judge)
+{
+    const yb_map_t *map = &judge->map;
+    int32_t z_q8 = yb_map_height(map, (uint16_t)lround(judge->summit_east * map->east_q8),
+                                 (uint16_t)lround(judge->summit_north * map->north_q8));
+    return (double)judge->base_m + (double)judge->metres_per_q8 * z_q8 - judge->summit_m;
 }
 
 void yb_judge_free(yb_judge_t *judge)
@@ -175,7 +193,8 @@ double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
         heights += (double)(off[i] * off[i]);
         slopes += (double)(east * east + north * north);
     }
-    return sqrt((heights + slope_weight * slopes) / samples);
+    double summit = summit_error_m(judge);
+    return sqrt((heights + slope_weight * slopes) / samples + summit_weight * summit * summit);
 }
 
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m)

@@ -81,8 +81,9 @@ typedef enum {
     YB_BITS_KINDS
 } yb_bits_kind_t;
 
-/* Fractions of bits: what the decisions were worth. */
+/* Fractions of bits: what the decisions were worth. Set to 0 before; by_kind if that is wanted. */
 typedef struct {
+    bool by_kind;
     double of[YB_BITS_KINDS];
     double all; /* with version, padding and check */
 } yb_bits_t;

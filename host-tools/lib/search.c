@@ -9,12 +9,13 @@
  * frame itself, with a cliff along its side.
  */
 enum {
-    MARGIN = 8
+    MARGIN = 8,
+    REPORTED = 512 /* trials */
 };
 
-/* What a bit costs, in the relief's standard deviations: within the budget, and beyond it. */
-static double bit_cost = 1e-4;
-static double bit_fine = 2e-3;
+/* By what share a bit makes a code worse: within the budget, and beyond it. */
+static const double bit_cost = 1e-4;
+static const double bit_fine = 2e-3;
 
 /* Where the search stands. */
 typedef struct {
@@ -123,10 +124,9 @@ static bool slide_end(state_t *state, yb_step_t *at)
 static bool change_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int free_from = yb_paper_first(paper, state->task->pinned);
-    if (paper->point_count <= free_from)
+    if (paper->point_count == 0)
         return false;
-    int point = free_from + random_below(state, paper->point_count - free_from);
+    int point = random_below(state, paper->point_count);
     int contour = contour_of(paper, point);
     int first = yb_paper_first(paper, contour);
     yb_step_t *at = &paper->point[point];
@@ -148,10 +148,10 @@ static bool change_point(state_t *state)
 static bool change_place(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count - state->task->pinned;
+    int contours = paper->contour_count;
     if (contours <= 0)
         return false;
-    int contour = state->task->pinned + random_below(state, contours);
+    int contour = random_below(state, contours);
     if (paper->contour[contour].open)
         return false;
     int x = random_move(state, 6 + 10 * state->heat);
@@ -207,10 +207,10 @@ static uint16_t other_level(state_t *state, uint16_t height)
 static bool change_height(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count - state->task->pinned;
+    int contours = paper->contour_count;
     if (contours <= 0)
         return false;
-    int contour = state->task->pinned + random_below(state, contours);
+    int contour = random_below(state, contours);
     uint16_t *height = &paper->contour[contour].height;
     uint16_t before = *height;
     if (paper->contour[contour].count > 1 && state->task->levels > 0)
@@ -246,10 +246,9 @@ static bool toggle_corner(state_t *state)
 static bool add_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int free_from = yb_paper_first(paper, state->task->pinned);
-    if (paper->point_count <= free_from)
+    if (paper->point_count == 0)
         return false;
-    int point = free_from + random_below(state, paper->point_count - free_from);
+    int point = random_below(state, paper->point_count);
     int contour = contour_of(paper, point);
     int first = yb_paper_first(paper, contour);
     int count = paper->contour[contour].count;
@@ -273,10 +272,9 @@ static bool add_point(state_t *state)
 static bool remove_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int free_from = yb_paper_first(paper, state->task->pinned);
-    if (paper->point_count <= free_from)
+    if (paper->point_count == 0)
         return false;
-    int point = free_from + random_below(state, paper->point_count - free_from);
+    int point = random_below(state, paper->point_count);
     int contour = contour_of(paper, point);
     int first = yb_paper_first(paper, contour);
     if (is_frame_end(paper, contour, first, point))
@@ -295,10 +293,10 @@ static bool transfer_point(state_t *state)
 static bool remove_contour(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count - state->task->pinned;
+    int contours = paper->contour_count;
     if (contours <= 0)
         return false;
-    yb_paper_drop(paper, state->task->pinned + random_below(state, contours));
+    yb_paper_drop(paper, random_below(state, contours));
     return true;
 }
 
@@ -408,16 +406,76 @@ static bool transfer_crossing(state_t *state)
     return remove_contour(state) && add_crossing(state);
 }
 
+/* A line's point becomes a spot height of its own. */
+static bool detach_point(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    if (paper->point_count == 0)
+        return false;
+    int point = random_below(state, paper->point_count);
+    int contour = contour_of(paper, point);
+    int first = yb_paper_first(paper, contour);
+    int count = paper->contour[contour].count;
+    if (count < 3 || (count == 3 && !paper->contour[contour].open) ||
+        is_frame_end(paper, contour, first, point))
+        return false;
+    yb_step_t at = paper->point[point];
+    yb_paper_remove(paper, contour, point);
+    return yb_paper_append(paper, true_height(state, at.x, at.y), false, &at, 1);
+}
+
+/* Square of the distance from p to the segment ab. */
+static double distance_to(yb_step_t p, yb_step_t a, yb_step_t b)
+{
+    double x = b.x - a.x;
+    double y = b.y - a.y;
+    double along = ((p.x - a.x) * x + (p.y - a.y) * y) / (x * x + y * y);
+    along = fmin(fmax(along, 0), 1);
+    double off_x = a.x + along * x - p.x;
+    double off_y = a.y + along * y - p.y;
+    return off_x * off_x + off_y * off_y;
+}
+
+/* A spot height becomes a point of the line nearest to it. */
+static bool attach_spot(state_t *state)
+{
+    yb_paper_t *paper = &state->next;
+    if (paper->contour_count == 0)
+        return false;
+    int spot = random_below(state, paper->contour_count);
+    if (paper->contour[spot].count != 1)
+        return false;
+    yb_step_t at = paper->point[yb_paper_first(paper, spot)];
+    yb_paper_drop(paper, spot);
+    double nearest = HUGE_VAL;
+    int line = -1;
+    int before = 0;
+    for (int i = 0, first = 0; i < paper->contour_count; first += paper->contour[i++].count) {
+        int count = paper->contour[i].count;
+        int segments = count == 1 ? 0 : paper->contour[i].open ? count - 1 : count;
+        for (int k = 0; k < segments; k++) {
+            double away = distance_to(at, paper->point[first + k],
+                                      paper->point[first + (k + 1) % count]);
+            if (away < nearest) {
+                nearest = away;
+                line = i;
+                before = first + k + 1;
+            }
+        }
+    }
+    return line >= 0 && yb_paper_insert(paper, line, before, at);
+}
+
 /* Another start or direction for a closed line, another direction for an open one: the surface
  * stays, the size does not.
  */
 static bool turn_line(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count - state->task->pinned;
+    int contours = paper->contour_count;
     if (contours <= 0)
         return false;
-    int contour = state->task->pinned + random_below(state, contours);
+    int contour = random_below(state, contours);
     int count = paper->contour[contour].count;
     if (count < 2)
         return false;
@@ -436,11 +494,11 @@ static bool turn_line(state_t *state)
 static bool reorder(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count - state->task->pinned;
+    int contours = paper->contour_count;
     if (contours <= 1)
         return false;
-    int contour = state->task->pinned + random_below(state, contours);
-    int to = state->task->pinned + random_below(state, contours);
+    int contour = random_below(state, contours);
+    int to = random_below(state, contours);
     return yb_paper_reorder(paper, contour, to);
 }
 
@@ -475,15 +533,16 @@ static bool change_twice(state_t *state)
 static bool choose_change(state_t *state)
 {
     static const struct {
-        int weight; /* of 100 */
+        int weight; /* of 216 */
         change_fn fn;
     } changes[] = {
-        {34, change_point},  {6, change_twice},   {5, change_place}, {14, change_height},
-        {6, change_corner},  {1, toggle_corner},  {9, add_point},    {6, remove_point},
-        {8, transfer_point}, {2, remove_contour}, {3, add_spot},     {2, transfer_spot},
-        {1, add_ring},       {1, transfer_ring},  {1, add_crossing}, {1, transfer_crossing},
-        {5, turn_line},      {3, reorder},        {1, change_unit},  {1, change_base}};
-    int ticket = random_below(state, 110);
+        {70, change_point},   {8, change_twice},   {10, change_place}, {32, change_height},
+        {10, change_corner},  {2, toggle_corner},  {16, add_point},    {8, remove_point},
+        {8, transfer_point},  {7, remove_contour}, {8, add_spot},      {10, transfer_spot},
+        {5, detach_point},    {8, attach_spot},    {1, add_ring},      {1, transfer_ring},
+        {1, add_crossing},    {1, transfer_crossing}, {4, turn_line},  {2, reorder},
+        {3, change_unit},     {1, change_base}};
+    int ticket = random_below(state, 216);
     int i = 0;
     while (ticket >= changes[i].weight)
         ticket -= changes[i++].weight;
@@ -496,7 +555,7 @@ static bool choose_change(state_t *state)
 static double cost_of(state_t *state, const yb_paper_t *paper, bool *fits)
 {
     uint8_t code[YB_PAPER_MOST_BYTES];
-    yb_bits_t bits;
+    yb_bits_t bits = {0};
     size_t most = state->task->most_bytes;
     size_t size = yb_paper_code(paper, code, most + most / 8, &bits);
     if (size == 0)
@@ -506,6 +565,15 @@ static double cost_of(state_t *state, const yb_paper_t *paper, bool *fits)
     double over = fmax(bits.all - 8.0 * (double)most, 0);
     return score < 0 ? -1
                      : score * exp(bit_cost * bits.all + bit_fine * over);
+}
+
+static void report(yb_progress_t *progress, double share)
+{
+    pthread_mutex_lock(progress->lock);
+    progress->begun += share * progress->part;
+    if (progress->report != NULL)
+        progress->report(progress->context, fmin(progress->begun, 1));
+    pthread_mutex_unlock(progress->lock);
 }
 
 double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
@@ -520,20 +588,15 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
     bool fits = false;
     double now = cost_of(state, paper, &fits);
     double best = now;
-    double hot=search->hot, cold=search->cold;
-    if (getenv("YB_HOT")) hot = atof(getenv("YB_HOT"));
-    if (getenv("YB_COLD")) cold = atof(getenv("YB_COLD"));
-    if (getenv("YB_BC")) bit_cost = atof(getenv("YB_BC"));
-    if (getenv("YB_BF")) bit_fine = atof(getenv("YB_BF"));
     for (long trial = 0; trial < search->trials && best >= 0; trial++) {
         double done = (double)trial / (double)search->trials;
-        double heat = hot * pow(cold / hot, done);
+        double heat = search->hot * pow(search->cold / search->hot, done);
         state->heat = (1 - done) * (1 - done);
-        if (search->progress != NULL && trial % 256 == 0)
-            search->progress(search->context, done);
-        state->next = state->now;
-        if (!choose_change(state))
-            continue;
+        if (search->progress != NULL && trial % REPORTED == 0)
+            report(search->progress, (double)REPORTED / (double)search->trials);
+        do
+            state->next = state->now;
+        while (!choose_change(state));
         double next = cost_of(state, &state->next, &fits);
         if (next < 0)
             continue;
@@ -549,7 +612,7 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
     }
     *paper = state->best;
     if (getenv("YB_DUMP")) {
-        uint8_t code[4096]; yb_bits_t b; yb_paper_code(paper, code, 4096, &b);
+        uint8_t code[4096]; yb_bits_t b = {.by_kind = true}; yb_paper_code(paper, code, 4096, &b);
         fprintf(stderr, "BITS %d sp %d unit %.1f:", paper->contour_count, paper->spacing, yb_paper_metres(paper->unit)/search->grid->std_m);
         for (int i = 0; i < YB_BITS_KINDS; i++) fprintf(stderr, " %.1f", b.of[i]);
         fprintf(stderr, " all %.1f\n", b.all);

@@ -6,22 +6,29 @@
 #ifndef YB_SEARCH_H
 #define YB_SEARCH_H
 
+#include <pthread.h>
+
 #include "judge.h"
 #include "paper_code.h"
+
+/* Several searches together are `part` each of all the work. */
+typedef struct {
+    pthread_mutex_t *lock;
+    void (*report)(void *context, double share); /* may be NULL */
+    void *context;
+    double begun, part;
+} yb_progress_t;
 
 typedef struct {
     const yb_grid_t *grid;
     yb_judge_t *judge;
     size_t most_bytes;
-    int pinned;            /* so many contours at the front stay as they are: the summit */
     const uint16_t *level; /* heights that lines may have, rising, in the code's units */
     int levels;            /* and how many; 0: any height */
     long trials;
-    double hot, cold; /* temperatures at begin and end, as shares of the grid's std_m */
+    double hot, cold; /* temperatures at begin and end, as shares of the error */
     uint64_t seed;
-    /* Called now and then with the share done; may be NULL. */
-    void (*progress)(void *context, double share);
-    void *context;
+    yb_progress_t *progress; /* where searches report; may be NULL */
 } yb_search_t;
 
 /* Improves the code in place, which must be possible at the start. Answers the
