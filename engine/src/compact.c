@@ -171,9 +171,10 @@ static yb_status_t take_short_side(yb_map_t *map, yb_load_t *load, int value)
 static yb_status_t take_vertices(yb_load_t *load, int value)
 {
     uint32_t vertices = value < 8 ? 32u * ((uint32_t)value + 1) : 512u << (value - 8);
-    if (vertices > YB_MAX_VERTICES + 1u)
+    vertices -= (value & 7) == 7 ? 1 : 0; /* 255 and 65535: what an index can count */
+    if (vertices > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
-    load->vertices_promised = (uint16_t)fix_min((int32_t)vertices, YB_MAX_VERTICES);
+    load->vertices_promised = (uint16_t)vertices;
     return expect(load, LINE_COUNT, NUMBER, MODEL_LINES);
 }
 

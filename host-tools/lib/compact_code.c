@@ -198,7 +198,7 @@ static void put_shape(coder_t *coder, const yb_paper_t *paper)
 
 int yb_compact_vertex_class(int vertices)
 {
-    if (vertices <= 256)
+    if (vertices <= 255)
         return (fix_max(vertices, 1) - 1) / 32;
     int class = 8;
     while (class < 15 && 512 << (class - 8) < vertices)
