@@ -216,8 +216,7 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, int value)
         return expect(load, BASE, NUMBER, MODEL_BASE);
     case BASE:
         load->base = value;
-        return value != 0 ? expect_one_of(load, BASE_DOWN, 2)
-                          : expect_one_of(load, DIMENSION, 32);
+        return value != 0 ? expect_one_of(load, BASE_DOWN, 2) : expect_one_of(load, DIMENSION, 32);
     case BASE_DOWN:
         load->base = value != 0 ? -load->base : load->base;
         return expect_one_of(load, DIMENSION, 32);

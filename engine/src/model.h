@@ -68,38 +68,40 @@ enum {
     MODELS = MODEL_TURN + TURN_CONTEXTS * TURN_MODELS
 };
 
-/* Probability of a 0 at the beginning, in 1/256. Means over many encoded mountains. */
+/* Probability of a 0 at the beginning, in 1/256: means over many encoded mountains. */
+/* clang-format off */
 static const uint8_t model_start[MODELS] = {
     [MODEL_SECTIONS] = 252,
     [MODEL_OBLONG] = 200,
     [MODEL_COARSE] = 220,
     [MODEL_STRAIGHT] = 250,
-    [MODEL_CLOSED] = 49,
-    [MODEL_END] = 249, 133,
-    [MODEL_CORNER] = 47,
-    [MODEL_GAP] = 129,
-    [MODEL_LINE_DOWN] = 159,
-    [MODEL_CORNER_DOWN] = 86,
-    [MODEL_SPOT_DOWN] = 144,
-    [MODEL_BASE] = 6, 29, 24, 75, 143, 202,
-    [MODEL_LINES] = 6, 6, 77, 249, 200, 230,
-    [MODEL_SPOTS] = 6, 6, 47, 175, 235, 249,
-    [MODEL_START] = 18, 27, 46, 92, 160, 249,
-    [MODEL_WAY] = 6, 10, 13, 40, 84, 151,
-    [MODEL_LINE_HEIGHT] = 113, 66, 181, 227, 134, 249,
-    [MODEL_CORNER_HEIGHT] = 16, 89, 197, 242, 249, 240,
-    [MODEL_SPOT_HEIGHT] = 17, 83, 165, 198, 203, 178,
-    [MODEL_LENGTH] = 6, 37, 105, 180, 224, 249,
-    47, 68, 179, 191, 249, 240,
-    15, 92, 163, 235, 249, 240,
-    15, 58, 151, 236, 249, 240,
-    6, 26, 97, 200, 240, 249,
-    [MODEL_TURN] = 194, 238, 6, 129, 249, 60, 40,
-    132, 151, 153, 175, 166, 151, 79,
-    125, 197, 74, 157, 206, 58, 130,
-    103, 189, 82, 90, 232, 54, 127,
-    137, 141, 70, 102, 158, 109, 119,
+    [MODEL_CLOSED] = 53,
+    [MODEL_END] = 246, 116,
+    [MODEL_CORNER] = 58,
+    [MODEL_GAP] = 120,
+    [MODEL_LINE_DOWN] = 189,
+    [MODEL_CORNER_DOWN] = 63,
+    [MODEL_SPOT_DOWN] = 140,
+    [MODEL_BASE] = 10, 10, 10, 91, 168, 206,
+    [MODEL_LINES] = 10, 22, 81, 246, 200, 230,
+    [MODEL_SPOTS] = 10, 10, 18, 129, 243, 246,
+    [MODEL_START] = 13, 21, 46, 98, 192, 246,
+    [MODEL_WAY] = 10, 12, 10, 30, 73, 166,
+    [MODEL_LINE_HEIGHT] = 117, 52, 197, 235, 10, 246,
+    [MODEL_CORNER_HEIGHT] = 12, 77, 191, 246, 246, 240,
+    [MODEL_SPOT_HEIGHT] = 10, 73, 173, 211, 210, 246,
+    [MODEL_LENGTH] = 10, 64, 118, 222, 246, 246,
+    74, 120, 177, 246, 246, 240,
+    21, 93, 191, 242, 246, 240,
+    13, 82, 167, 246, 246, 240,
+    10, 45, 139, 220, 246, 246,
+    [MODEL_TURN] = 203, 239, 10, 158, 246, 60, 14,
+    154, 142, 117, 169, 195, 222, 55,
+    140, 184, 68, 158, 210, 42, 124,
+    99, 181, 84, 65, 228, 38, 117,
+    162, 115, 64, 97, 125, 115, 113,
 };
+/* clang-format on */
 
 /* A model holds the probability of a 0 in 1/65536 and learns it with every decision. */
 enum {

@@ -179,15 +179,15 @@ static yb_status_t take_field(yb_map_t *map, yb_load_t *load, uint32_t field)
 
 void paper_begin(yb_load_t *load)
 {
-    load->at = 1; /* of the header */
+    load->at = 1;                 /* of the header */
     load->section = SECTION_LAST; /* none follow */
 }
 
 yb_status_t paper_take(yb_map_t *map, yb_load_t *load, uint8_t byte)
 {
     static const uint8_t width[] = {
-        [HEADER] = 8, [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8,
-        [HEIGHT] = 16, [START] = 16, [STEP] = 12, [END] = 8,
+        [HEADER] = 8,  [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8,
+        [HEIGHT] = 16, [START] = 16,         [STEP] = 12,  [END] = 8,
     };
     load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
     load->bits_held = (uint8_t)(load->bits_held + 8);

@@ -74,7 +74,8 @@ static void put_bit(coder_t *coder, int model, int bit)
 {
     uint32_t range = coder->range;
     uint32_t bound = model_bound(coder->model[model], range);
-    if (dump) fprintf(stderr, "D %d %d\n", model, bit);
+    if (dump)
+        fprintf(stderr, "D %d %d\n", model, bit);
     coder->model[model] = model_learn(coder->model[model], bit);
     spend(coder, (double)(bit != 0 ? range - bound : bound) / range);
     if (bit != 0)
@@ -236,8 +237,9 @@ static void put_header(coder_t *coder, const yb_paper_t *paper)
     put_uniform(coder, paper->dimension / 8, 32);
     put_uniform(coder, coded_gain(paper->gain), 16);
     put_bit(coder, MODEL_STRAIGHT, paper->straight);
-    put_uniform(coder, paper->vertices > 0 ? yb_compact_vertex_class(paper->vertices) : paper->vertex_class,
-                16);
+    put_uniform(
+        coder, paper->vertices > 0 ? yb_compact_vertex_class(paper->vertices) : paper->vertex_class,
+        16);
 }
 
 /* Height of the point nearest to (x, y), in steps, of those written: the first `lines` contours
@@ -421,8 +423,7 @@ static void put_line(coder_t *coder, const yb_paper_t *paper, int contour, int f
         int away = fix_max(abs(pen.x - start_x), abs(pen.y - start_y));
         coder->kind = YB_BITS_LENGTHS;
         if (!line->open && i >= 2)
-            put_bit(coder, MODEL_END + (away <= 2 * pen.last.length ? 1 : 0),
-                    i == line->count - 1);
+            put_bit(coder, MODEL_END + (away <= 2 * pen.last.length ? 1 : 0), i == line->count - 1);
     }
     for (int i = 0; i < line->count; i++)
         know(known, point[i], line->height);
@@ -470,8 +471,7 @@ static void put_spots(coder_t *coder, const yb_paper_t *paper, known_t *spot, in
     coder->kind = YB_BITS_SPOT_PLACES;
     put_number(coder, MODEL_SPOTS, count);
     for (int i = 0; i < count && !coder->failed; i++) {
-        int cell =
-            spot[i].x / paper->spacing - 1 + columns * (spot[i].y / paper->spacing - 1);
+        int cell = spot[i].x / paper->spacing - 1 + columns * (spot[i].y / paper->spacing - 1);
         if (cell < next || cell >= points) {
             coder->failed = true;
             return;
@@ -547,7 +547,8 @@ size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_
     for (int i = 0; i < MODELS; i++)
         coder.model[i] = model_first(i);
     dump = getenv("YB_DUMP") && paper->vertices > 0;
-    if (dump) fprintf(stderr, "NEW\n");
+    if (dump)
+        fprintf(stderr, "NEW\n");
     code[coder.size++] = YB_FORMAT_VERSION << 4 | YB_COMPACT;
     narrow(&coder, 0, 1);
     put_header(&coder, paper);

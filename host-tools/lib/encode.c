@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "fractal.h"
 #include "compact_code.h"
+#include "fractal.h"
 #include "judge.h"
 #include "line_grid.h"
 #include "search.h"
@@ -145,8 +145,8 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing
     paper->profile = task->profile;
     if (paper->profile == YB_COMPACT) {
         paper->cell = yb_compact_cell(fmax(width / paper->east, depth / paper->north));
-        paper->vertex_class = (uint8_t)yb_compact_vertex_class(task->vertices > 0 ? task->vertices
-                                                                                  : 255);
+        paper->vertex_class =
+            (uint8_t)yb_compact_vertex_class(task->vertices > 0 ? task->vertices : 255);
         choose_unit(encoder, paper);
     }
     const double corner[YB_CORNERS][2] = {{0, 0}, {width, 0}, {width, depth}, {0, depth}};

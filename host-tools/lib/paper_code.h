@@ -70,12 +70,12 @@ uint16_t yb_paper_line_height(const yb_paper_t *paper, double height_m);
 
 /* What the bits of a code are spent on. */
 typedef enum {
-    YB_BITS_HEADER,       /* scale, lattice, base, roughness */
-    YB_BITS_FRAME,        /* heights of corners */
-    YB_BITS_STARTS,       /* where lines begin, and how many there are */
-    YB_BITS_HEIGHTS,      /* of lines */
-    YB_BITS_LENGTHS,      /* of steps, and where lines end */
-    YB_BITS_TURNS,        /* of steps */
+    YB_BITS_HEADER,  /* scale, lattice, base, roughness */
+    YB_BITS_FRAME,   /* heights of corners */
+    YB_BITS_STARTS,  /* where lines begin, and how many there are */
+    YB_BITS_HEIGHTS, /* of lines */
+    YB_BITS_LENGTHS, /* of steps, and where lines end */
+    YB_BITS_TURNS,   /* of steps */
     YB_BITS_SPOT_PLACES,
     YB_BITS_SPOT_HEIGHTS,
     YB_BITS_KINDS

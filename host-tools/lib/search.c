@@ -1,7 +1,6 @@
 #include "search.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -454,8 +453,8 @@ static bool attach_spot(state_t *state)
         int count = paper->contour[i].count;
         int segments = count == 1 ? 0 : paper->contour[i].open ? count - 1 : count;
         for (int k = 0; k < segments; k++) {
-            double away = distance_to(at, paper->point[first + k],
-                                      paper->point[first + (k + 1) % count]);
+            double away =
+                distance_to(at, paper->point[first + k], paper->point[first + (k + 1) % count]);
             if (away < nearest) {
                 nearest = away;
                 line = i;
@@ -508,8 +507,7 @@ static bool change_unit(state_t *state)
     yb_paper_t *paper = &state->next;
     if (paper->profile != YB_COMPACT || state->task->levels > 0)
         return false;
-    return yb_paper_rescale(paper,
-                            yb_paper_metres(paper->unit) * exp2(random_bell(state, 0.7)));
+    return yb_paper_rescale(paper, yb_paper_metres(paper->unit) * exp2(random_bell(state, 0.7)));
 }
 
 /* Lifts or lowers all of it. */
@@ -536,12 +534,12 @@ static bool choose_change(state_t *state)
         int weight; /* of 216 */
         change_fn fn;
     } changes[] = {
-        {70, change_point},   {8, change_twice},   {10, change_place}, {32, change_height},
-        {10, change_corner},  {2, toggle_corner},  {16, add_point},    {8, remove_point},
-        {8, transfer_point},  {7, remove_contour}, {8, add_spot},      {10, transfer_spot},
-        {5, detach_point},    {8, attach_spot},    {1, add_ring},      {1, transfer_ring},
-        {1, add_crossing},    {1, transfer_crossing}, {4, turn_line},  {2, reorder},
-        {3, change_unit},     {1, change_base}};
+        {70, change_point},  {8, change_twice},      {10, change_place}, {32, change_height},
+        {10, change_corner}, {2, toggle_corner},     {16, add_point},    {8, remove_point},
+        {8, transfer_point}, {7, remove_contour},    {8, add_spot},      {10, transfer_spot},
+        {5, detach_point},   {8, attach_spot},       {1, add_ring},      {1, transfer_ring},
+        {1, add_crossing},   {1, transfer_crossing}, {4, turn_line},     {2, reorder},
+        {3, change_unit},    {1, change_base}};
     int ticket = random_below(state, 216);
     int i = 0;
     while (ticket >= changes[i].weight)
@@ -563,8 +561,7 @@ static double cost_of(state_t *state, const yb_paper_t *paper, bool *fits)
     *fits = size <= most;
     double score = yb_judge_score_m(state->task->judge, code, size);
     double over = fmax(bits.all - 8.0 * (double)most, 0);
-    return score < 0 ? -1
-                     : score * exp(bit_cost * bits.all + bit_fine * over);
+    return score < 0 ? -1 : score * exp(bit_cost * bits.all + bit_fine * over);
 }
 
 static void report(yb_progress_t *progress, double share)
@@ -611,12 +608,6 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
         }
     }
     *paper = state->best;
-    if (getenv("YB_DUMP")) {
-        uint8_t code[4096]; yb_bits_t b = {.by_kind = true}; yb_paper_code(paper, code, 4096, &b);
-        fprintf(stderr, "BITS %d sp %d unit %.1f:", paper->contour_count, paper->spacing, yb_paper_metres(paper->unit)/search->grid->std_m);
-        for (int i = 0; i < YB_BITS_KINDS; i++) fprintf(stderr, " %.1f", b.of[i]);
-        fprintf(stderr, " all %.1f\n", b.all);
-    }
     free(state);
     return best;
 }

@@ -169,10 +169,8 @@ int yb_simplify_to_lattice(const yb_line_t *line, double tolerance_m, const yb_l
         bool end = open && (i == 0 || i == count - 1);
         bool end_x = end && (at.x <= 0 || at.x >= lattice->east);
         bool end_y = end && (at.y <= 0 || at.y >= lattice->north);
-        int x =
-            snap(at.x, lattice->spacing, end_x ? 0 : 1, lattice->east - (end_x ? 0 : 1));
-        int y =
-            snap(at.y, lattice->spacing, end_y ? 0 : 1, lattice->north - (end_y ? 0 : 1));
+        int x = snap(at.x, lattice->spacing, end_x ? 0 : 1, lattice->east - (end_x ? 0 : 1));
+        int y = snap(at.y, lattice->spacing, end_y ? 0 : 1, lattice->north - (end_y ? 0 : 1));
         point[i] = (yb_step_t){(uint8_t)x, (uint8_t)y};
     }
     free(kept);

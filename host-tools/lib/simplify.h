@@ -21,8 +21,8 @@ typedef struct {
 } yb_lattice_t;
 
 /* Simplifies a line and lays it on the lattice: all points are multiples of
- * the spacing, the ends of an open one lie on the frame, all others inside. Answers how many points, at
- * most `room`; 0 if the line collapses or needs more.
+ * the spacing, the ends of an open one lie on the frame, all others inside. Answers how many
+ * points, at most `room`; 0 if the line collapses or needs more.
  */
 int yb_simplify_to_lattice(const yb_line_t *line, double tolerance_m, const yb_lattice_t *lattice,
                            yb_step_t *point, int room);

@@ -9,8 +9,8 @@
 #include "simplify.h"
 
 /* Header of a code for a frame of these metres: at most 255 steps on the longer side (a multiple
- * of the spacing, so that a line can run from one side to the other), heights from low_m to high_m with
- * half as much to spare, one frame height at low_m, no contours, middling noise.
+ * of the spacing, so that a line can run from one side to the other), heights from low_m to high_m
+ * with half as much to spare, one frame height at low_m, no contours, middling noise.
  */
 void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double low_m, double high_m,
                      int spacing);
