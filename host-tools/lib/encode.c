@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "certificate.h"
 #include "fractal.h"
 #include "compact_code.h"
 #include "judge.h"
@@ -90,6 +91,7 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing
     yb_sketch_begin(paper, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
     paper->seed = encoder->task->seed;
     paper->profile = encoder->task->profile;
+    paper->sections = encoder->task->sections;
     if (paper->profile == YB_COMPACT) {
         const char *e = getenv("YB_UNIT");
         paper->cell = yb_compact_cell(fmax(width / paper->east, depth / paper->north));
@@ -262,9 +264,12 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
                    yb_encode_result_t *result, yb_error_t *error)
 {
     memset(result, 0, sizeof(*result));
-    if (task->most_bytes < YB_ENCODE_LEAST_BYTES)
-        return yb_error_set(error, "%zu bytes are too few for a map: the least is %d",
-                            task->most_bytes, YB_ENCODE_LEAST_BYTES);
+    size_t sections = yb_sections_size(task->sections);
+    if (task->most_bytes < YB_ENCODE_LEAST_BYTES + sections)
+        return yb_error_set(error, "%zu bytes are too few for a map%s: the least is %zu",
+                            task->most_bytes,
+                            sections > 0 ? " with the name, place or certificate asked for" : "",
+                            YB_ENCODE_LEAST_BYTES + sections);
     encoder_t *encoder = calloc(1, sizeof(*encoder));
     if (encoder == NULL)
         return yb_error_set(error, "out of memory");
@@ -276,6 +281,10 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
     if (!good)
         yb_error_set(error, "out of memory");
     good = good && encoder_run(encoder, result, error);
+    if (good && task->sections != NULL && task->sections->certified)
+        good = yb_certificate_fill(&result->code, grid, given, error);
+    if (!good)
+        yb_code_file_free(result->code);
     yb_judge_free(encoder->judge);
     free(encoder);
     return good;

@@ -150,11 +150,11 @@ typedef struct {
     uint16_t unit;     /* metres per unit of coded height, as coded */
     int16_t base_m;    /* metres above the datum of z = 0 */
     uint8_t seed;
-    uint8_t certified_error; /* 0: nobody says; else see yb_certified_error_m … */
-    uint8_t certified_k;     /* K in 1/256 of the lines, if certified_error is not 0 */
-    uint8_t hurst_q8m1; /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
-    bool smooth;        /* midpoints follow the slopes of the ends */
-    bool detail;        /* midpoints move by noise; clear it to get the smooth part alone */
+    uint8_t certified_error; /* of heights; 0: nobody says, else see yb_certified_error_m */
+    uint8_t certified_k;     /* similarity K of the lines in 1/255, if certified_error is not 0 */
+    uint8_t hurst_q8m1;      /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
+    bool smooth;             /* midpoints follow the slopes of the ends */
+    bool detail;             /* midpoints move by noise; clear it to get the smooth part alone */
     /* Per length class: the noise's scale (q8 height for one unit of the hash sum is scale/2^9),
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
@@ -198,7 +198,7 @@ typedef struct {
     uint16_t first_summit;   /* vertices from here on are summits that were added … */
     uint16_t first_saddle;   /* … from here on link points … */
     uint16_t first_skeleton; /* … and from here on points of skeletons */
-    uint16_t relief_size; /* bytes of the code before its sections, or its check byte */
+    uint16_t relief_size;    /* bytes of the code before its sections, or its check byte */
     uint8_t profile;
     /* private: the decoder (code.c) */
     uint8_t part;
@@ -322,6 +322,11 @@ static inline uint32_t yb_unit_64th_m(uint16_t coded)
 {
     return (uint32_t)(coded & 0xfff) << (coded >> 12);
 }
+
+/* What a map's certificate promises (docs/SPEC.md 1.4): nine tenths of all heights lie within so
+ * many metres of the truth, rounded up, 1 to 15021; 0: it has none. For "±22 m" on a display.
+ */
+uint16_t yb_certified_error_m(uint8_t certified_error);
 
 /* --- The view --------------------------------------------------------------------------------- */
 
