@@ -324,7 +324,7 @@ static inline uint32_t yb_unit_64th_m(uint16_t coded)
 }
 
 /* What a map's certificate promises (docs/SPEC.md 1.4): nine tenths of all heights lie within so
- * many metres of the truth, rounded up, 1 to 15021; 0: it has none. For "±22 m" on a display.
+ * many metres of the truth, rounded up, 1 to 15025; 0: it has none. For "±22 m" on a display.
  */
 uint16_t yb_certified_error_m(uint8_t certified_error);
 
