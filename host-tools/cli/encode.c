@@ -13,6 +13,7 @@
 #include "encode.h"
 #include "fractal.h"
 #include "ground.h"
+#include "line_crossings.h"
 #include "line_grid.h"
 #include "output.h"
 #include "paper_code.h"
@@ -385,7 +386,8 @@ static bool encode_vector(request_t *request, yb_encode_result_t *result,
         fprintf(stderr, "%s: %d lines end inside the window and are left out\n", request->input,
                 lines->dropped);
     const yb_origin_t *origin = &lines->origin;
-    bool good = find_place(request, origin->projection, origin->west_m + lines->width_m / 2,
+    bool good = yb_line_crossings_none(lines, request->input, error) &&
+                find_place(request, origin->projection, origin->west_m + lines->width_m / 2,
                            origin->south_m + lines->depth_m / 2, error) &&
                 yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
                 yb_encode_lines(lines, &request->task, result, error);

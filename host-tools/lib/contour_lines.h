@@ -32,6 +32,7 @@ typedef struct {
 typedef struct {
     double width_m, depth_m; /* the frame */
     yb_origin_t origin;      /* of lines from a file */
+    char *input_system;      /* WKT of the file's own coordinates, if not the origin's; or NULL */
     int count;
     yb_line_t *line;
     int room;          /* of the array; private */
