@@ -15,8 +15,13 @@ enum {
     SIDES = 4
 };
 
-/* Overlaps up to this share of the frame's longer side are touches. */
+/* Overlaps up to this share of the frame's longer side are touches; so are those of two lines that
+ * were rounded to the same grid, each by up to half its diagonal.
+ */
 static const double most_overlap = 1 / 25500.0;
+static const double most_rounding = 1.5;
+/* … within reason: a tenth of a lattice step. */
+static const double most_rounded = 1 / 2550.0;
 
 typedef struct {
     double height_m[2];
@@ -26,7 +31,7 @@ typedef struct {
 typedef struct {
     GEOSContextHandle_t geos;
     const yb_lines_t *lines;
-    GEOSGeometry **drawn; /* of each line; NULL of a spot height */
+    GEOSGeometry **drawn; /* of each line; NULL of those that are not looked at */
     double overlap_m;
     int line;                             /* the one that others are compared with … */
     const GEOSPreparedGeometry *prepared; /* … quickly … */
@@ -192,7 +197,7 @@ static void find(finder_t *finder)
     GEOSSTRtree *tree = GEOSSTRtree_create_r(finder->geos, 10);
     finder->failed = tree == NULL;
     for (int i = 0; i < lines->count && !finder->failed; i++) {
-        if (lines->line[i].count < 2)
+        if (lines->line[i].count < 2 || lines->line[i].mended)
             continue;
         GEOSCoordSequence *sequence =
             sequence_of(finder->geos, &lines->line[i], NULL, 0, lines->line[i].closed);
@@ -251,10 +256,13 @@ static bool tell(const finder_t *finder, const char *path, yb_error_t *error)
 
 bool yb_line_crossings_none(const yb_lines_t *lines, const char *path, yb_error_t *error)
 {
-    finder_t finder = {.geos = GEOS_init_r(),
-                       .lines = lines,
-                       .drawn = calloc((size_t)lines->count + 1, sizeof(*finder.drawn)),
-                       .overlap_m = most_overlap * fmax(lines->width_m, lines->depth_m)};
+    double longest_m = fmax(lines->width_m, lines->depth_m);
+    finder_t finder = {
+        .geos = GEOS_init_r(),
+        .lines = lines,
+        .drawn = calloc((size_t)lines->count + 1, sizeof(*finder.drawn)),
+        .overlap_m = fmax(most_overlap * longest_m,
+                          fmin(most_rounding * lines->precision_m, most_rounded * longest_m))};
     finder.failed = finder.geos == NULL || finder.drawn == NULL;
     if (!finder.failed)
         find(&finder);

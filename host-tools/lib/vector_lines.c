@@ -33,6 +33,10 @@ static const double most_coordinate = 1e9;
 /* More is a mark that there is no height. */
 static const double most_height_m = 30000;
 static const char blanks[] = " \t\r\n";
+static const double degree_m = 111320;
+enum {
+    MOST_DECIMALS = 9
+};
 /* Room round lines that are all closed. */
 static const double margin_share = 0.06;
 
@@ -50,6 +54,7 @@ typedef struct {
     shape_t *shape;
     int count, room;
     double box[4];
+    int decimals; /* of the coordinates, at most */
 } reader_t;
 
 bool yb_lines_is_vector(const char *path)
@@ -266,6 +271,28 @@ static bool cut_by_extent(const reader_t *reader)
     return ends >= 2;
 }
 
+/* Counts the decimals that the coordinates of a geometry need. */
+static void count_decimals(reader_t *reader, OGRGeometryH geometry)
+{
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        count_decimals(reader, OGR_G_GetGeometryRef(geometry, i));
+    for (int i = 0; i < 2 * OGR_G_GetPointCount(geometry); i++) {
+        double value = i % 2 == 0 ? OGR_G_GetX(geometry, i / 2) : OGR_G_GetY(geometry, i / 2);
+        double scaled = value * pow(10, reader->decimals);
+        while (reader->decimals < MOST_DECIMALS && fabs(scaled - round(scaled)) > 1e-3)
+            scaled = value * pow(10, ++reader->decimals);
+    }
+}
+
+/* What that is on the ground; `srs` is the file's own system. */
+static double precision_m(const reader_t *reader, OGRSpatialReferenceH srs)
+{
+    double unit_m = srs == NULL || OSRIsLocal(srs) != 0 ? 1
+                    : OSRIsGeographic(srs) != 0         ? degree_m
+                                                        : OSRGetLinearUnits(srs, NULL);
+    return unit_m * pow(10, -reader->decimals);
+}
+
 /* Brings all shapes to metres if their coordinates are not. */
 static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *error)
 {
@@ -275,6 +302,8 @@ static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *er
         if (!(fabs(box[i]) < most_coordinate)) /* GDAL would turn round the earth for ever */
             return yb_error_set(error, "the coordinates of %s reach %g: that is no place on earth",
                                 reader->path, box[i]);
+    for (int i = 0; i < reader->count; i++)
+        count_decimals(reader, reader->shape[i].geometry);
     if (yb_ground_in_metres(srs))
         return true;
     reader->local = yb_ground_local(srs, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2);
@@ -428,6 +457,7 @@ static bool set_origin(const reader_t *reader, OGRSpatialReferenceH srs, yb_line
 {
     lines->origin.west_m = reader->box[0];
     lines->origin.south_m = reader->box[1];
+    lines->precision_m = precision_m(reader, srs);
     if (reader->local == NULL)
         return copy_system(srs, &lines->origin.projection);
     return copy_system(reader->local, &lines->origin.projection) &&
