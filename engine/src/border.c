@@ -1,7 +1,7 @@
 /* The border of the map: where open contours end, and how high the frame is. */
 #include "mesh.h"
 
-/* SPEC 1.4: which points of a contour may lie on the frame. */
+/* SPEC 1.5: which points of a contour may lie on the frame. */
 static yb_status_t check_contour(const yb_map_t *map, yb_contour_t *contour)
 {
     const yb_vertex_t *first = &map->vertex[contour->first];

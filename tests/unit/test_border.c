@@ -112,7 +112,7 @@ static void a_line_may_end_in_a_corner(void **state)
     assert_int_equal(corner(3), 10 * 256);
 }
 
-/* All ways an open line of two or three points can lie: legal exactly when SPEC 1.4 says so. */
+/* All ways an open line of two or three points can lie: legal exactly when SPEC 1.5 says so. */
 static void all_short_lines(void **state)
 {
     (void)state;

@@ -288,7 +288,7 @@ YB_MUST_CHECK yb_status_t yb_map_end(yb_map_t *map, yb_load_t *load);
  *           corner_height[4] (SW SE NE NW; left alone: from the lines that meet the frame) and
  *           frame_height (where none does)
  *
- * by the rules of docs/SPEC.md 1.4. YB_OK, YB_ERR_CORRUPT: lines cross or touch, YB_ERR_LIMIT: the
+ * by the rules of docs/SPEC.md 1.5. YB_OK, YB_ERR_CORRUPT: lines cross or touch, YB_ERR_LIMIT: the
  * mesh would have more than YB_MAX_VERTICES.
  */
 YB_MUST_CHECK yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load);

@@ -223,6 +223,25 @@ static void test_what_is_written_is_read(void **state)
     assert_int_equal(yb_sections_size(&(yb_sections_t){0}), 0);
 }
 
+/* The example of SPEC 1.4. */
+static void test_the_example_of_the_specification(void **state)
+{
+    (void)state;
+    static const uint8_t bytes[] = {0x12, 0x68, 0xbd, 0x26, 0xa9, 0x9b, 0x38,
+                                    0x41, 0xb5, 0xe4, 0xb2, 0x4b, 0x32};
+    yb_sections_t sections;
+    yb_sections_read(&sections, bytes, sizeof(bytes));
+    assert_int_equal(yb_certified_error_m(sections.error), 22);
+    assert_true(fabs(yb_sections_error_m(sections.error) - 21.67) < 0.005);
+    assert_true(fabs(sections.k / 255.0 - 0.74) < 0.005);
+    assert_true(fabs(sections.lon_deg + 121.4911) < 2e-5);
+    assert_true(fabs(sections.lat_deg - 46.2027) < 1e-5);
+    assert_string_equal(sections.name, "K2");
+    size_t size = yb_sections_end(&sections, code, relief, ROOM);
+    assert_int_equal(size, relief + sizeof(bytes) + 1);
+    assert_memory_equal(code + relief, bytes, sizeof(bytes));
+}
+
 static void test_names(void **state)
 {
     (void)state;
@@ -337,6 +356,7 @@ int main(void)
         cmocka_unit_test(test_every_flipped_bit_is_refused),
         cmocka_unit_test(test_errors_are_logarithmic),
         cmocka_unit_test(test_what_is_written_is_read),
+        cmocka_unit_test(test_the_example_of_the_specification),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_broken_sections_are_no_danger),
         cmocka_unit_test(test_they_count_into_the_bytes),
