@@ -54,7 +54,7 @@ static int help(void)
         "\n"
         "Says what is in a code: size and scale of the map, its contours and how they lie in\n"
         "each other, the mesh that the engine makes of them, where each bit went; its name, its\n"
-        "place on earth and what it certifies, if it says so. MAP.yb may be - for the standard "
+        "place on earth and what it certifies, if it says so. MAP.yb may be - for the standard\n"
         "input, or a vector file of contour lines.\n"
         "\n"
         "N is the number of points, M of contours (spot heights among them); F = 12 N + 20 M + 8\n"

@@ -1,7 +1,7 @@
 /* What the verbs hand to the user's other programs, through GDAL: rasters and lines in any format
  * whose driver writes one file, chosen by the file's ending. Places are metres from the south-west
- * corner of the map's frame, or in the projection of `origin` if that is not NULL: contour lines and
- * codes may say where on earth they lie.
+ * corner of the map's frame, or in the projection of `origin` if that is not NULL: contour lines
+ * and codes may say where on earth they lie.
  */
 #ifndef YB_GEOFILE_H
 #define YB_GEOFILE_H
