@@ -70,7 +70,7 @@ static int corners_back(const yb_lines_t *lines, const yb_line_t *line, yb_place
     int count = 0;
     to += to < from ? round : 0;
     for (int i = 0; i < 2 * SIDES; i++) {
-        double at = way[i % SIDES] + i / SIDES * round;
+        double at = way[i % SIDES] + (i < SIDES ? 0 : round);
         if (at > from && at < to && count < SIDES)
             corner[count++] = all[i % SIDES];
     }
@@ -260,7 +260,7 @@ bool yb_line_crossings_none(const yb_lines_t *lines, const char *path, yb_error_
     finder_t finder = {
         .geos = GEOS_init_r(),
         .lines = lines,
-        .drawn = calloc((size_t)lines->count + 1, sizeof(*finder.drawn)),
+        .drawn = calloc((size_t)lines->count + 1, sizeof(GEOSGeometry *)),
         .overlap_m = fmax(most_overlap * longest_m,
                           fmin(most_rounding * lines->precision_m, most_rounded * longest_m))};
     finder.failed = finder.geos == NULL || finder.drawn == NULL;

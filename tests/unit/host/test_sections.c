@@ -258,12 +258,11 @@ static void test_names(void **state)
                          "a\nb",
                          "\x1b[31m",
                          "\x7f",
-                         "\xc2\x85", /* next line */
-                         "\xc2\x9b"
-                         "31m",      /* a terminal's command */
-                         "\xc3",     /* cut off */
-                         "\x80",     /* begins in the middle */
-                         "\xc0\xaf", /* longer than needed */
+                         "\xc2\x85",  /* next line */
+                         "\xc2\x9b;", /* a terminal's command */
+                         "\xc3",      /* cut off */
+                         "\x80",      /* begins in the middle */
+                         "\xc0\xaf",  /* longer than needed */
                          "\xe0\x80\xaf",
                          "\xf0\x80\x80\xaf",
                          "\xed\xa0\x80",     /* half of a pair */
