@@ -1,7 +1,7 @@
 /* The border of the map: where open contours end, and how high the frame is. */
 #include "mesh.h"
 
-/* SPEC 1.6: which points of a contour may lie on the frame. */
+/* SPEC 1.5: which points of a contour may lie on the frame. */
 static yb_status_t check_contour(const yb_map_t *map, yb_contour_t *contour)
 {
     const yb_vertex_t *first = &map->vertex[contour->first];
@@ -58,9 +58,11 @@ static int32_t interpolate(const yb_map_t *map, const yb_load_t *load, yb_index_
             height_behind = v->z_q8;
         }
     }
-    /* Heights are at most 2^17 and ways 2^18: the sum stays below 2^36. */
-    uint64_t sum = (uint64_t)height_ahead * behind + (uint64_t)height_behind * ahead;
-    return (int32_t)((sum + (ahead + behind) / 2) / (ahead + behind));
+    /* |heights| are at most 2^17 and ways 2^18: the sum stays below 2^36. */
+    int64_t ways = (int64_t)ahead + behind;
+    int64_t sum =
+        (int64_t)height_ahead * behind + (int64_t)height_behind * ahead + (ahead + behind) / 2;
+    return (int32_t)(sum >= 0 ? sum / ways : -((ways - 1 - sum) / ways)); /* rounded down */
 }
 
 /* Makes corner k a vertex, unless a line ends there. */

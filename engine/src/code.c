@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "fix.h"
 #include "mesh.h"
 
 enum part {
@@ -171,6 +172,13 @@ yb_status_t yb_map_load(yb_map_t *map, yb_load_t *load, const uint8_t *bytes, si
     yb_map_begin(map, load);
     yb_status_t status = yb_map_feed(map, load, bytes, count);
     return status == YB_MORE ? yb_map_end(map, load) : status;
+}
+
+/* Sixteen steps an octave from 1/4 m on: 2^6 is that in 1/256 m, 255 gives below 2^22. */
+uint16_t yb_certified_error_m(uint8_t certified_error)
+{
+    int32_t exponent_q11 = 6 * 2048 + 128 * ((int32_t)certified_error - 1);
+    return (uint16_t)(certified_error == 0 ? 0 : (fix_exp2_q11(exponent_q11) + 255) >> 8);
 }
 
 const char *yb_status_text(yb_status_t status)

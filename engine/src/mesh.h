@@ -60,7 +60,7 @@ int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t 
 int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b);
 
 /* Checks the contours against the frame, tells open from closed ones, adds the corners that no
- * line ends at, and gives every corner its height (SPEC 1.6, 2.1).
+ * line ends at, and gives every corner its height (SPEC 1.5, 2.1).
  */
 YB_MUST_CHECK yb_status_t border_close(yb_map_t *map, yb_load_t *load);
 

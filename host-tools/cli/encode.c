@@ -12,6 +12,8 @@
 
 #include "encode.h"
 #include "fractal.h"
+#include "ground.h"
+#include "line_crossings.h"
 #include "line_grid.h"
 #include "output.h"
 #include "paper_code.h"
@@ -26,6 +28,9 @@ enum {
     OPTION_BASE,
     OPTION_SEED,
     OPTION_EFFORT,
+    OPTION_NAME,
+    OPTION_PLACE,
+    OPTION_CERTIFY,
     OPTION_FORCE,
     OPTION_JSON,
     OPTION_HEX,
@@ -47,6 +52,9 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"base", required_argument, NULL, OPTION_BASE},
                                         {"seed", required_argument, NULL, OPTION_SEED},
                                         {"effort", required_argument, NULL, OPTION_EFFORT},
+                                        {"name", required_argument, NULL, OPTION_NAME},
+                                        {"place", no_argument, NULL, OPTION_PLACE},
+                                        {"certify", no_argument, NULL, OPTION_CERTIFY},
                                         {"force", no_argument, NULL, OPTION_FORCE},
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"hex", no_argument, NULL, OPTION_HEX},
@@ -58,6 +66,7 @@ typedef struct {
     const char *input, *output;
     cli_part_t part;
     yb_encode_task_t task;
+    yb_sections_t sections;
     double base_m; /* of a drawn sheet */
     bool based, force, json, hex, quiet;
 } request_t;
@@ -97,6 +106,13 @@ static int help(void)
           "  --field NAME          the attribute of a vector file that is the height (default:\n"
           "                        one that sounds like it, or else the z coordinate)\n"
           "  --seed N              of the fractal detail, 0 to 255 (default 1)\n",
+          stdout);
+    fputs("\n"
+          "What the code says beside the relief (profile compact; it counts into --bytes):\n"
+          "  --name TEXT           the map's name, up to 63 bytes of UTF-8\n"
+          "  --place               where on earth its centre lies, to about 2 m: 7 bytes\n"
+          "  --certify             the error that nine tenths of all heights keep within, and K,\n"
+          "                        as yamabiko evaluate finds them: 3 bytes\n",
           stdout);
     fputs("\n"
           "  --effort 1..9         each step doubles the trials (default 5: some seconds)\n"
@@ -180,6 +196,18 @@ static int take_coding(request_t *request, int answer)
     }
 }
 
+static int take_section(request_t *request, int answer)
+{
+    yb_error_t error;
+    if (answer == OPTION_PLACE)
+        request->sections.placed = true;
+    else if (answer == OPTION_CERTIFY)
+        request->sections.certified = true;
+    else if (!yb_sections_name(&request->sections, optarg, &error))
+        return cli_usage("--name: %s", error.text);
+    return CLI_OK;
+}
+
 static int take_option(request_t *request, int answer, int argc, char **argv)
 {
     if (cli_part_owns(answer))
@@ -191,6 +219,10 @@ static int take_option(request_t *request, int answer, int argc, char **argv)
     case 'q':
         request->quiet = true;
         return CLI_OK;
+    case OPTION_NAME:
+    case OPTION_PLACE:
+    case OPTION_CERTIFY:
+        return take_section(request, answer);
     case OPTION_FORCE:
         request->force = true;
         return CLI_OK;
@@ -254,7 +286,8 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
     int points = point_count(code);
     json_t *root = json_object();
     json_object_set_new(root, "file", json_string(request->output));
-    json_object_set_new(root, "profile", json_string("paper"));
+    json_object_set_new(root, "profile",
+                        json_string(request->task.profile == YB_COMPACT ? "compact" : "paper"));
     json_object_set_new(root, "bytes", json_integer((json_int_t)code->size));
     json_object_set_new(root, "n", json_integer(points));
     json_object_set_new(root, "m", json_integer(code->load.contour_count));
@@ -293,6 +326,9 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
             12 * points + 20 * code->load.contour_count + 8);
     fprintf(to, "RMSE %.1f m, NRMSE %.3f (without detail)\n", result->rmse_m,
             result->rmse_m / result->std_m);
+    if (code->sections.certified)
+        fprintf(to, "certified: nine tenths of the heights within %u m, K %.2f\n",
+                yb_certified_error_m(code->map.certified_error), code->map.certified_k / 255.0);
     if (fractal->boxes.sizes > 0)
         fprintf(to, "dimension %.2f (boxes, r² %.3f, %.4g to %.4g m)\n", result->dimension,
                 fractal->boxes.r2, fractal->boxes.from_m, fractal->boxes.to_m);
@@ -305,7 +341,20 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
     }
 }
 
-static bool encode_raster(const request_t *request, yb_encode_result_t *result,
+/* Finds the place of a frame's centre, if that is asked for. */
+static bool find_place(request_t *request, const char *projection, double x, double y,
+                       yb_error_t *error)
+{
+    yb_sections_t *sections = &request->sections;
+    return !sections->placed ||
+           yb_ground_place(projection, x, y, &sections->lon_deg, &sections->lat_deg) ||
+           yb_error_set(error,
+                        "%s does not say where on earth it lies: --place needs an input with a "
+                        "projection",
+                        request->input);
+}
+
+static bool encode_raster(request_t *request, yb_encode_result_t *result,
                           yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_grid_t *grid = yb_grid_read(request->input, &request->part.window, GRID_SIDE, error);
@@ -317,13 +366,16 @@ static bool encode_raster(const request_t *request, yb_encode_result_t *result,
     if (!grid->placed && request->part.window.cell_m <= 0 && !request->quiet)
         fprintf(stderr, "%s does not tell the size of its cells: %g m are assumed (--cell)\n",
                 request->input, YB_GRID_DEFAULT_CELL_M);
-    bool good = yb_fractal_of_grid(grid, fractal, error) &&
+    double x = grid->transform[0] + grid->columns * grid->transform[1] / 2;
+    double y = grid->transform[3] + grid->rows * grid->transform[5] / 2;
+    bool good = find_place(request, grid->projection, x, y, error) &&
+                yb_fractal_of_grid(grid, fractal, error) &&
                 yb_encode_grid(grid, &request->task, result, error);
     yb_grid_free(grid);
     return good;
 }
 
-static bool encode_vector(const request_t *request, yb_encode_result_t *result,
+static bool encode_vector(request_t *request, yb_encode_result_t *result,
                           yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_lines_t *lines =
@@ -333,13 +385,17 @@ static bool encode_vector(const request_t *request, yb_encode_result_t *result,
     if (lines->dropped > 0 && !request->quiet)
         fprintf(stderr, "%s: %d lines end inside the window and are left out\n", request->input,
                 lines->dropped);
-    bool good = yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
+    const yb_origin_t *origin = &lines->origin;
+    bool good = yb_line_crossings_none(lines, request->input, error) &&
+                find_place(request, origin->projection, origin->west_m + lines->width_m / 2,
+                           origin->south_m + lines->depth_m / 2, error) &&
+                yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
                 yb_encode_lines(lines, &request->task, result, error);
     yb_lines_free(lines);
     return good;
 }
 
-static bool encode_scan(const request_t *request, yb_encode_result_t *result,
+static bool encode_scan(request_t *request, yb_encode_result_t *result,
                         yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_scan_scale_t scale = {request->base_m, request->task.interval_m,
@@ -352,7 +408,8 @@ static bool encode_scan(const request_t *request, yb_encode_result_t *result,
                 request->input, YB_GRID_DEFAULT_CELL_M);
     yb_encode_task_t task = request->task;
     task.interval_m = 0; /* all lines stay at the heights they were given */
-    bool good = yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
+    bool good = find_place(request, NULL, 0, 0, error) &&
+                yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
                 yb_encode_lines(lines, &task, result, error);
     yb_lines_free(lines);
     return good;
@@ -379,7 +436,7 @@ static int check_scan(const request_t *request, bool scan)
     return CLI_OK;
 }
 
-static int run(const request_t *request)
+static int run(request_t *request)
 {
     yb_error_t error;
     yb_encode_result_t result;
@@ -417,6 +474,11 @@ static int check_request(request_t *request)
         return cli_usage("--levels and --interval exclude each other");
     if (request->json && strcmp(request->output, "-") == 0)
         return cli_usage("--json and -o - both want the standard output");
+    if (yb_sections_size(&request->sections) > 0) {
+        if (request->task.profile == YB_PAPER)
+            return cli_usage("--name, --place and --certify are for --profile compact");
+        request->task.sections = &request->sections;
+    }
     if (!request->quiet && isatty(STDERR_FILENO) && isatty(STDOUT_FILENO))
         request->task.progress = show_progress;
     return cli_part_check(&request->part);

@@ -136,6 +136,14 @@ static void print_misfit(const char *name, const yb_misfit_t *misfit)
            misfit->rmse_m, misfit->nrmse, misfit->p90_m, misfit->max_m, misfit->slope_deg);
 }
 
+/* Whether the map keeps what its certificate promises; it does if it has none. */
+static bool keeps_promise(const yb_map_t *map, const yb_fidelity_t *fidelity)
+{
+    return map->certified_error == 0 ||
+           (fidelity->detail.p90_m <= yb_sections_error_m(map->certified_error) &&
+            fidelity->k >= map->certified_k / 255.0);
+}
+
 static void print_fidelity(const yb_fidelity_t *fidelity)
 {
     if (fidelity->bytes > 0)
@@ -214,6 +222,10 @@ static bool evaluate(const request_t *request, yb_code_file_t *file, const yb_gr
     } else if (good && (request->sheet == NULL || strcmp(request->sheet, "-") != 0)) {
         print_fidelity(&fidelity);
     }
+    if (good && !keeps_promise(&file->map, &fidelity))
+        fprintf(stderr, "%s: its certificate promises more: nine tenths within %u m, K %.2f\n",
+                request->input, yb_certified_error_m(file->map.certified_error),
+                file->map.certified_k / 255.0);
     yb_fidelity_free(&fidelity);
     yb_comparison_free(&comparison);
     return good;

@@ -23,8 +23,11 @@ static const struct option options[] = {{"json", no_argument, NULL, OPTION_JSON}
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
 
-/* Where the bits of a code went; they add up to its size. */
+/* Where the bits of a code went; they add up to its size. Of the compact profile, relief, sections
+ * and check.
+ */
 typedef struct {
+    int relief, sections;
     int header, frame, counts, dimension, heights, starts, differences, padding, check;
 } budget_t;
 
@@ -50,8 +53,9 @@ static int help(void)
         "Usage: yamabiko info MAP.yb [OPTION ...]\n"
         "\n"
         "Says what is in a code: size and scale of the map, its contours and how they lie in\n"
-        "each other, the mesh that the engine makes of them, and where each bit went. MAP.yb\n"
-        "may be - for the standard input, or a vector file of contour lines.\n"
+        "each other, the mesh that the engine makes of them, where each bit went; its name, its\n"
+        "place on earth and what it certifies, if it says so. MAP.yb may be - for the standard\n"
+        "input, or a vector file of contour lines.\n"
         "\n"
         "N is the number of points, M of contours (spot heights among them); F = 12 N + 20 M + 8\n"
         "is the length of the body in bits. The header, the points of each contour and the\n"
@@ -82,8 +86,20 @@ static double contour_m(const info_t *info, int contour)
     return height_m(info, info->file->map.vertex[info->file->load.contour[contour].first].z_q8);
 }
 
+static bool is_compact(const info_t *info)
+{
+    return info->file->load.profile == YB_COMPACT;
+}
+
 static void find_budget(info_t *info)
 {
+    if (is_compact(info)) {
+        info->budget.relief = info->file->load.relief_size * 8;
+        info->budget.check = 8;
+        info->budget.sections =
+            (int)info->file->size * 8 - info->budget.relief - info->budget.check;
+        return;
+    }
     int contours = info->file->load.contour_count;
     int coded = info->corners > 0 ? info->corners : 1;
     budget_t *budget = &info->budget;
@@ -142,7 +158,7 @@ static void gather(info_t *info, const char *name, const yb_code_file_t *file)
     find_tree(info);
     if (file->size == 0) /* lines: there is no code */
         return;
-    for (int bit = 4; bit < 8; bit++)
+    for (int bit = 4; bit < 8 && !is_compact(info); bit++)
         info->corners += file->bytes[1] >> bit & 1;
     find_budget(info);
 }
@@ -200,7 +216,9 @@ static void print_budget(const info_t *info)
     const struct {
         const char *name;
         int bits;
-    } row[] = {{"header", budget->header},
+    } row[] = {{"relief", budget->relief},
+               {"sections", budget->sections},
+               {"header", budget->header},
                {"frame heights", budget->frame},
                {"points per contour", budget->counts},
                {"dimension", budget->dimension},
@@ -212,7 +230,8 @@ static void print_budget(const info_t *info)
     int all = (int)info->file->size * 8;
     puts("\nbits");
     for (size_t i = 0; i < sizeof(row) / sizeof(row[0]); i++)
-        printf("  %-18s %5d  %4.1f %%\n", row[i].name, row[i].bits, 100.0 * row[i].bits / all);
+        if (row[i].bits > 0 || (i >= 2 && !is_compact(info)))
+            printf("  %-18s %5d  %4.1f %%\n", row[i].name, row[i].bits, 100.0 * row[i].bits / all);
     printf("  %-18s %5d\n", "in all", all);
 }
 
@@ -231,23 +250,63 @@ static void print_mesh(const info_t *info)
            info->file->load.region_count);
 }
 
+/* The next section of a code; *at is 0 to begin with. */
+static bool next_section(const info_t *info, size_t *at, yb_section_t *section)
+{
+    size_t relief = info->file->load.relief_size;
+    return yb_section_next(info->file->bytes + relief, info->file->size - relief - 1, at, section);
+}
+
+static const char *section_name(int kind)
+{
+    return kind == YB_SECTION_CERTIFICATE ? "certificate"
+           : kind == YB_SECTION_PLACE     ? "place"
+           : kind == YB_SECTION_NAME      ? "name"
+                                          : "unknown";
+}
+
+static void print_sections(const info_t *info)
+{
+    const yb_sections_t *sections = &info->file->sections;
+    const yb_map_t *map = &info->file->map;
+    yb_section_t section;
+    size_t at = 0;
+    if (sections->name[0] != '\0')
+        printf("  name               %s\n", sections->name);
+    if (sections->placed)
+        printf("  place of centre    longitude %.5f, latitude %.5f\n", sections->lon_deg,
+               sections->lat_deg);
+    if (map->certified_error > 0)
+        printf("  certificate        nine tenths of the heights within %u m, K %.2f\n",
+               yb_certified_error_m(map->certified_error), map->certified_k / 255.0);
+    while (next_section(info, &at, &section)) {
+        if (at == section.whole)
+            printf("  sections          ");
+        printf(" %s %zu bytes%s", section_name(section.kind), section.whole,
+               at < (size_t)info->budget.sections / 8 ? "," : "\n");
+    }
+}
+
 static void print_code(const info_t *info)
 {
     const yb_map_t *map = &info->file->map;
     int contours = info->file->load.contour_count;
     int f_bits = 12 * info->points + 20 * contours + 8;
     double hurst = (map->hurst_q8m1 + 1) / 256.0;
-    printf("%s: %zu bytes, format %d, profile paper\n", info->name, info->file->size,
-           YB_FORMAT_VERSION);
+    printf("%s: %zu bytes, format %d, profile %s\n", info->name, info->file->size,
+           YB_FORMAT_VERSION, is_compact(info) ? "compact" : "paper");
     printf("  N = %d points, M = %d contours (%d of them spot heights), F = %d bits = %d bytes\n",
            info->points, contours, info->spots, f_bits, (f_bits + 7) / 8);
+    print_sections(info);
     print_frame(info);
     printf("  heights            %.1f to %.1f m, coded in units of %.6g m above %d m\n",
            height_m(info, map->low_q8), height_m(info, map->high_q8), info->unit_m, map->base_m);
-    printf("  differences        multiples of %d\n", 1 << (info->file->bytes[1] & 3));
-    printf("  corner heights     %d coded\n", info->corners);
+    if (!is_compact(info)) {
+        printf("  differences        multiples of %d\n", 1 << (info->file->bytes[1] & 3));
+        printf("  corner heights     %d coded\n", info->corners);
+    }
     printf("  D = %.3f, H = %.3f, gain %.2f, seed %d, %s midpoints\n", 2 - hurst, hurst,
-           info->file->bytes[13] / 32.0, map->seed, map->smooth ? "smooth" : "straight");
+           info->file->load.gain / 32.0, map->seed, map->smooth ? "smooth" : "straight");
     print_mesh(info);
     print_budget(info);
 }
@@ -276,6 +335,9 @@ static void print_text(const info_t *info)
 
 static json_t *json_budget(const budget_t *budget)
 {
+    if (budget->relief > 0)
+        return json_pack("{s:i, s:i, s:i}", "relief", budget->relief, "sections", budget->sections,
+                         "check", budget->check);
     return json_pack("{s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "header", budget->header,
                      "frame_heights", budget->frame, "counts", budget->counts, "dimension",
                      budget->dimension, "heights", budget->heights, "starts", budget->starts,
@@ -316,6 +378,32 @@ static json_t *json_regions(const info_t *info)
     return list;
 }
 
+/* What is not there is left out; `sections` lists all, unknown ones too. */
+static void json_sections(const info_t *info, json_t *root)
+{
+    const yb_sections_t *sections = &info->file->sections;
+    const yb_map_t *map = &info->file->map;
+    json_t *list = json_array();
+    yb_section_t section;
+    size_t at = 0;
+    while (next_section(info, &at, &section))
+        json_array_append_new(list,
+                              json_pack("{s:i, s:s, s:i}", "kind", section.kind, "name",
+                                        section_name(section.kind), "bytes", (int)section.whole));
+    json_object_set_new(root, "sections", list);
+    if (sections->name[0] != '\0')
+        json_object_set_new(root, "name", json_string(sections->name));
+    if (sections->placed)
+        json_object_set_new(
+            root, "place",
+            json_pack("{s:f, s:f}", "lon", sections->lon_deg, "lat", sections->lat_deg));
+    if (map->certified_error > 0)
+        json_object_set_new(root, "certificate",
+                            json_pack("{s:f, s:f}", "p90_m",
+                                      yb_sections_error_m(map->certified_error), "k",
+                                      map->certified_k / 255.0));
+}
+
 /* What a code says beyond the map itself. */
 static void json_code(const info_t *info, json_t *root)
 {
@@ -324,17 +412,20 @@ static void json_code(const info_t *info, json_t *root)
     double hurst = (map->hurst_q8m1 + 1) / 256.0;
     json_object_set_new(root, "bytes", json_integer((json_int_t)info->file->size));
     json_object_set_new(root, "format", json_integer(YB_FORMAT_VERSION));
-    json_object_set_new(root, "profile", json_string("paper"));
+    json_object_set_new(root, "profile", json_string(is_compact(info) ? "compact" : "paper"));
     json_object_set_new(root, "f_bits", json_integer(12 * info->points + 20 * contours + 8));
-    json_object_set_new(root, "shift", json_integer(info->file->bytes[1] & 3));
-    json_object_set_new(root, "corners_coded", json_integer(info->corners));
+    if (!is_compact(info)) {
+        json_object_set_new(root, "shift", json_integer(info->file->bytes[1] & 3));
+        json_object_set_new(root, "corners_coded", json_integer(info->corners));
+    }
     json_object_set_new(root, "unit_m", json_real(info->unit_m));
     json_object_set_new(root, "dimension", json_real(2 - hurst));
     json_object_set_new(root, "hurst", json_real(hurst));
-    json_object_set_new(root, "gain", json_real(info->file->bytes[13] / 32.0));
+    json_object_set_new(root, "gain", json_real(info->file->load.gain / 32.0));
     json_object_set_new(root, "seed", json_integer(map->seed));
     json_object_set_new(root, "smooth", json_boolean(map->smooth));
     json_object_set_new(root, "bits", json_budget(&info->budget));
+    json_sections(info, root);
 }
 
 static int print_json(const info_t *info)

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ground.h"
+#include "surface.h"
+
 /* Far above YB_MAX_CODE_BYTES, so that a slightly longer file is told from a wrong one. */
 enum {
     MOST_BYTES = 4096
@@ -37,6 +40,19 @@ static bool load_failed(yb_error_t *error, const char *name, const uint8_t *byte
     }
 }
 
+/* What the sections say; a place becomes the origin of a projection, the frame's centre. */
+static bool take_sections(yb_code_file_t *file)
+{
+    size_t relief = file->load.relief_size;
+    yb_sections_read(&file->sections, file->bytes + relief, file->size - relief - 1);
+    if (!file->sections.placed)
+        return true;
+    file->origin.west_m = -yb_map_east_m(&file->map) / 2;
+    file->origin.south_m = -yb_map_north_m(&file->map) / 2;
+    file->origin.projection = yb_ground_local_wkt(file->sections.lon_deg, file->sections.lat_deg);
+    return file->origin.projection != NULL;
+}
+
 yb_code_file_t *yb_code_file_from_bytes(const char *name, const uint8_t *bytes, size_t size,
                                         yb_error_t *error)
 {
@@ -51,6 +67,11 @@ yb_code_file_t *yb_code_file_from_bytes(const char *name, const uint8_t *bytes, 
     yb_status_t status = yb_map_load(&file->map, &file->load, file->bytes, size);
     if (status != YB_OK) {
         load_failed(error, name, bytes, size, status);
+        free(file);
+        return NULL;
+    }
+    if (!take_sections(file)) {
+        yb_error_set(error, "%s: there is no projection round its place", name);
         free(file);
         return NULL;
     }

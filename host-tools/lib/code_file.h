@@ -9,12 +9,14 @@
 
 #include "contour_lines.h"
 #include "error.h"
+#include "sections.h"
 
 typedef struct {
     yb_map_t map;
-    yb_load_t load;     /* its contours stay valid: see yamabiko.h */
-    size_t size;        /* of the code in bytes; 0: there is none, the map is made of lines */
-    yb_origin_t origin; /* of a map made of lines; a code does not say where it lies */
+    yb_load_t load;         /* its contours stay valid: see yamabiko.h */
+    size_t size;            /* of the code in bytes; 0: there is none, the map is made of lines */
+    yb_origin_t origin;     /* of a map made of lines, or of a code that says its place */
+    yb_sections_t sections; /* of a code */
     uint8_t bytes[];
 } yb_code_file_t;
 

@@ -528,17 +528,6 @@ static void put_seed(coder_t *coder, uint8_t seed)
     coder->size--;
 }
 
-static uint8_t crc8(const uint8_t *bytes, size_t count)
-{
-    unsigned crc = 0;
-    for (size_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = (crc & 0x80) != 0 ? (crc << 1 ^ 0x07) & 0xff : crc << 1;
-    }
-    return (uint8_t)crc;
-}
-
 size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits)
 {
     coder_t coder = {.code = code, .room = room, .range = 1, .bits = bits};
@@ -554,12 +543,12 @@ size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_
     put_header(&coder, paper);
     put_contours(&coder, paper);
     coder.kind = YB_BITS_HEADER;
-    put_bit(&coder, MODEL_SECTIONS, 0);
+    put_bit(&coder, MODEL_SECTIONS, yb_sections_size(paper->sections) > 0);
     if (coder.failed)
         return 0;
     if (bits != NULL)
-        bits->all = (double)coder.size * 8 - log2((double)coder.range / RANGE_LEAST);
+        bits->all = (double)coder.size * 8 - log2((double)coder.range / RANGE_LEAST) +
+                    8 * (double)yb_sections_size(paper->sections);
     put_seed(&coder, paper->seed);
-    code[coder.size] = crc8(code, coder.size);
-    return coder.size + 1;
+    return yb_sections_end(paper->sections, code, coder.size, room);
 }

@@ -31,6 +31,7 @@ void yb_lines_free(yb_lines_t *lines)
         free(lines->line[i].place);
     free(lines->line);
     free(lines->origin.projection);
+    free(lines->input_system);
     free(lines);
 }
 

@@ -19,6 +19,7 @@ typedef struct {
 typedef struct {
     double height_m;
     bool closed;
+    bool mended; /* closed over a gap, or bent far to meet the frame: not as the file has it */
     int count;
     yb_place_t *place;
 } yb_line_t;
@@ -32,11 +33,13 @@ typedef struct {
 typedef struct {
     double width_m, depth_m; /* the frame */
     yb_origin_t origin;      /* of lines from a file */
+    char *input_system;      /* WKT of the file's own coordinates, if not the origin's; or NULL */
     int count;
     yb_line_t *line;
-    int room;          /* of the array; private */
-    int dropped;       /* lines that end in the open, away from the frame */
-    double interval_m; /* from line to line, where that is known; 0: the lines tell it */
+    int room;           /* of the array; private */
+    int dropped;        /* lines that end in the open, away from the frame */
+    double precision_m; /* that the coordinates of a file are rounded to; 0: not known */
+    double interval_m;  /* from line to line, where that is known; 0: the lines tell it */
 } yb_lines_t;
 
 /* The lines of a grid at the given heights. NULL: out of memory, or GDAL says why. */

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "certificate.h"
 #include "compact_code.h"
 #include "fractal.h"
 #include "judge.h"
@@ -143,6 +144,7 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing
     yb_sketch_begin(paper, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
     paper->seed = task->seed;
     paper->profile = task->profile;
+    paper->sections = task->sections;
     if (paper->profile == YB_COMPACT) {
         paper->cell = yb_compact_cell(fmax(width / paper->east, depth / paper->north));
         paper->vertex_class =
@@ -388,9 +390,12 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
                    yb_encode_result_t *result, yb_error_t *error)
 {
     memset(result, 0, sizeof(*result));
-    if (task->most_bytes < YB_ENCODE_LEAST_BYTES)
-        return yb_error_set(error, "%zu bytes are too few for a map: the least is %d",
-                            task->most_bytes, YB_ENCODE_LEAST_BYTES);
+    size_t sections = yb_sections_size(task->sections);
+    if (task->most_bytes < YB_ENCODE_LEAST_BYTES + sections)
+        return yb_error_set(error, "%zu bytes are too few for a map%s: the least is %zu",
+                            task->most_bytes,
+                            sections > 0 ? " with the name, place or certificate asked for" : "",
+                            YB_ENCODE_LEAST_BYTES + sections);
     encoder_t *encoder = calloc(1, sizeof(*encoder));
     if (encoder == NULL)
         return yb_error_set(error, "out of memory");
@@ -403,6 +408,10 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
     if (!good)
         yb_error_set(error, "out of memory");
     good = good && encoder_run(encoder, result, error);
+    if (good && task->sections != NULL && task->sections->certified)
+        good = yb_certificate_fill(&result->code, grid, given, error);
+    if (!good)
+        yb_code_file_free(result->code);
     yb_judge_free(encoder->judge);
     free(encoder);
     return good;

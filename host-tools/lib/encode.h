@@ -10,6 +10,7 @@
 #include "code_file.h"
 #include "contour_lines.h"
 #include "grid.h"
+#include "sections.h"
 
 enum {
     YB_ENCODE_DEFAULT_BYTES = 100,
@@ -27,6 +28,8 @@ typedef struct {
     double interval_m; /* lines at multiples of it; 0: heights are the encoder's choice */
     uint8_t seed;      /* of the map's noise */
     int effort;        /* 1 to 9: the number of trials doubles with each step */
+    const yb_sections_t *sections; /* after a compact relief, inside most_bytes; NULL: none. An
+                                    * asked-for certificate is measured at the end */
     /* Called now and then, perhaps from another thread, never twice at once. May be NULL. */
     void (*progress)(void *context, double share);
     void *context;

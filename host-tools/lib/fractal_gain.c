@@ -91,7 +91,7 @@ bool yb_fractal_gain(yb_paper_t *paper, const yb_grid_t *grid)
                        .x_q8 = places(grid->columns, paper->east),
                        .y_q8 = places(grid->rows, paper->north)};
     measure_rises(grid, grid->height_m, target.real_m);
-    search_t search = {.target = &target, .paper = paper, .least = INFINITY};
+    search_t search = {.target = &target, .paper = paper, .least = HUGE_VAL};
     const bool good = target.x_q8 != NULL && target.y_q8 != NULL && search_gain(&search);
     paper->gain = good ? (uint8_t)search.best : before;
     free(target.x_q8);

@@ -189,7 +189,13 @@ static bool write_lines(GDALDriverH driver, const char *path, const void *what)
     if (dataset == NULL)
         return false;
     OGRSpatialReferenceH metres = system_of(placed->origin);
-    OGRLayerH layer = GDALDatasetCreateLayer(dataset, "contours", metres, wkbLineString, NULL);
+    /* GeoJSON can name a system by its number only: what has none is written in degrees. */
+    bool nameless = placed->origin->projection != NULL && OSRGetAuthorityCode(metres, NULL) == NULL;
+    char **options = nameless && EQUAL(GDALGetDriverShortName(driver), "GeoJSON")
+                         ? CSLSetNameValue(NULL, "RFC7946", "YES")
+                         : NULL;
+    OGRLayerH layer = GDALDatasetCreateLayer(dataset, "contours", metres, wkbLineString, options);
+    CSLDestroy(options);
     OSRRelease(metres);
     OGRFieldDefnH field = OGR_Fld_Create("elevation", OFTReal);
     bool good = layer != NULL && OGR_L_CreateField(layer, field, TRUE) == OGRERR_NONE;

@@ -1,7 +1,7 @@
 /* What the verbs hand to the user's other programs, through GDAL: rasters and lines in any format
  * whose driver writes one file, chosen by the file's ending. Places are metres from the south-west
- * corner of the map's frame, or in the projection of `origin` if that is not NULL: a code does not
- * say where on earth it lies, contour lines may.
+ * corner of the map's frame, or in the projection of `origin` if that is not NULL: contour lines
+ * and codes may say where on earth they lie.
  */
 #ifndef YB_GEOFILE_H
 #define YB_GEOFILE_H
@@ -16,7 +16,7 @@ bool yb_geofile_write_raster(const char *path, bool force, const yb_raster_t *ra
                              const float *z_m, const yb_origin_t *origin, yb_error_t *error);
 
 /* Lines with a field `elevation`; closed ones repeat their first point. GeoJSON if the path is
- * "-".
+ * "-"; that is in degrees if the projection has no number of its own (EPSG).
  */
 bool yb_geofile_write_lines(const char *path, bool force, const yb_isolines_t *lines,
                             const yb_origin_t *origin, yb_error_t *error);

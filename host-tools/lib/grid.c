@@ -18,7 +18,8 @@
 
 enum {
     FEWEST_CELLS = 8,
-    SIDE_SAMPLES = 21
+    CELL_SAMPLES = 16,           /* a side: no grid's cell needs more of the raster's cells */
+    CACHE_BYTES = 64 * (1 << 20) /* of GDAL; its own choice is a share of the machine's memory */
 };
 
 /* Heights beyond these are marks for missing data: the lowest and the highest ground known on any
@@ -31,7 +32,7 @@ static const float highest_m = 30000.0F;
 typedef struct {
     const char *path;
     GDALDatasetH dataset;
-    GDALDatasetH wrapped; /* what the dataset is a view of, or NULL */
+    GDALDatasetH wrapped[2]; /* what the dataset is a view of, and that again; or NULL */
     double transform[6];
     double bounds[4];           /* x min, y min, x max, y max of all of it */
     OGRSpatialReferenceH srs;   /* its own; borrowed; NULL if none */
@@ -123,18 +124,11 @@ static void box_of_raster(source_t *source)
     }
 }
 
-/* Replaces the dataset by a virtual one of its first band, placed if it was not. */
-static bool source_wrap(source_t *source, const double *corners, yb_error_t *error)
+/* Replaces the dataset by a virtual one, by the words of gdal_translate, which it frees. */
+static bool source_view(source_t *source, char **words, yb_error_t *error)
 {
-    char **words = CSLAddString(NULL, "-of");
+    words = CSLAddString(words, "-of");
     words = CSLAddString(words, "VRT");
-    words = CSLAddString(words, "-b");
-    words = CSLAddString(words, "1");
-    if (corners != NULL) {
-        words = CSLAddString(words, "-a_ullr");
-        for (int i = 0; i < 4; i++)
-            words = CSLAddString(words, CPLSPrintf("%.17g", corners[i]));
-    }
     GDALTranslateOptions *options = GDALTranslateOptionsNew(words, NULL);
     CSLDestroy(words);
     int wrong = 0;
@@ -142,8 +136,57 @@ static bool source_wrap(source_t *source, const double *corners, yb_error_t *err
     GDALTranslateOptionsFree(options);
     if (view == NULL)
         return yb_error_set(error, "cannot read %s: %s", source->path, CPLGetLastErrorMsg());
-    source->wrapped = source->dataset;
+    source->wrapped[source->wrapped[0] != NULL ? 1 : 0] = source->dataset;
     source->dataset = view;
+    return true;
+}
+
+/* A view of the first band, placed if the raster was not. */
+static bool source_wrap(source_t *source, const double *corners, yb_error_t *error)
+{
+    char **words = CSLTokenizeString2("-b 1", " ", 0);
+    if (corners != NULL) {
+        words = CSLAddString(words, "-a_ullr");
+        for (int i = 0; i < 4; i++)
+            words = CSLAddString(words, CPLSPrintf("%.17g", corners[i]));
+    }
+    return source_view(source, words, error);
+}
+
+/* A view with fewer cells, evenly picked, if there are far more than the grid needs: a raster of
+ * any size is read in short time, from its overviews where it has some.
+ */
+static bool source_thin(source_t *source, double cell_m, yb_error_t *error)
+{
+    int factor = (int)(cell_m / source->native_m / CELL_SAMPLES);
+    if (factor < 2)
+        return true;
+    char **words = CSLTokenizeString2("-r nearest -outsize", " ", 0);
+    words = CSLAddString(words,
+                         CPLSPrintf("%d", 1 + (GDALGetRasterXSize(source->dataset) - 1) / factor));
+    words = CSLAddString(words,
+                         CPLSPrintf("%d", 1 + (GDALGetRasterYSize(source->dataset) - 1) / factor));
+    source->native_m *= factor;
+    return source_view(source, words, error);
+}
+
+/* Whether what the first band holds may be heights. */
+static bool source_check(const source_t *source, yb_error_t *error)
+{
+    int bands = GDALGetRasterCount(source->dataset);
+    int columns = GDALGetRasterXSize(source->dataset);
+    int rows = GDALGetRasterYSize(source->dataset);
+    if (bands == 0)
+        return yb_error_set(error, "%s holds no raster band", source->path);
+    GDALRasterBandH band = GDALGetRasterBand(source->dataset, 1);
+    GDALColorInterp meaning = GDALGetRasterColorInterpretation(band);
+    if (meaning == GCI_PaletteIndex || (meaning == GCI_RedBand && bands >= 3))
+        return yb_error_set(error, "%s holds colours, not heights", source->path);
+    if (GDALDataTypeIsComplex(GDALGetRasterDataType(band)) != 0)
+        return yb_error_set(error, "%s holds complex numbers, not heights", source->path);
+    if (columns < FEWEST_CELLS || rows < FEWEST_CELLS)
+        return yb_error_set(error, "%s has only %d x %d cells: at least %d x %d are needed",
+                            source->path, columns, rows, FEWEST_CELLS, FEWEST_CELLS);
     return true;
 }
 
@@ -157,13 +200,9 @@ static bool source_open(source_t *source, double cell_m, yb_error_t *error)
         VSIFCloseL(file);
         return yb_error_set(error, "%s is no raster that GDAL can read", source->path);
     }
+    if (!source_check(source, error))
+        return false;
     int bands = GDALGetRasterCount(source->dataset);
-    if (bands == 0)
-        return yb_error_set(error, "%s holds no raster band", source->path);
-    GDALColorInterp meaning =
-        GDALGetRasterColorInterpretation(GDALGetRasterBand(source->dataset, 1));
-    if (meaning == GCI_PaletteIndex || (meaning == GCI_RedBand && bands >= 3))
-        return yb_error_set(error, "%s holds colours, not heights", source->path);
     source->placed = GDALGetGeoTransform(source->dataset, source->transform) == CE_None;
     double columns = GDALGetRasterXSize(source->dataset) * cell_m;
     double rows = GDALGetRasterYSize(source->dataset) * cell_m;
@@ -212,6 +251,13 @@ static bool box_covered(const source_t *source, const double box[4])
            box[3] <= b[3] + slack_y;
 }
 
+/* Side of a cell, in the raster's own unit, turned or not. */
+static double native_size(const source_t *source)
+{
+    const double *t = source->transform;
+    return sqrt(hypot(t[1], t[4]) * hypot(t[2], t[5]));
+}
+
 static bool choose_center(source_t *source, const yb_window_t *window, yb_error_t *error)
 {
     if (source->srs == NULL || OSRIsLocal(source->srs) != 0)
@@ -230,7 +276,7 @@ static bool choose_center(source_t *source, const yb_window_t *window, yb_error_
         return yb_error_set(error, "longitude %g, latitude %g does not lie on %s", window->lon_deg,
                             window->lat_deg, source->path);
     if (yb_ground_in_metres(source->srs)) {
-        source->native_m = sqrt(fabs(source->transform[1] * source->transform[5]));
+        source->native_m = native_size(source);
     } else {
         if (!source_localise(source, x, y, error))
             return false;
@@ -257,8 +303,7 @@ static bool source_choose(source_t *source, const yb_window_t *window, yb_error_
     if (!box_covered(source, box))
         return outside(source, error);
     if (yb_ground_in_metres(source->srs)) {
-        source->native_m = sqrt(hypot(source->transform[1], source->transform[4]) *
-                                hypot(source->transform[2], source->transform[5]));
+        source->native_m = native_size(source);
         memcpy(source->box, box, sizeof(source->box));
         return true;
     }
@@ -272,10 +317,34 @@ static bool source_choose(source_t *source, const yb_window_t *window, yb_error_
     return true;
 }
 
+/* What marks holes in a raster that does not say so itself; NULL: nothing does. */
+static const char *hole_mark(const source_t *source)
+{
+    GDALRasterBandH band = GDALGetRasterBand(source->dataset, 1);
+    int known = 0;
+    (void)GDALGetRasterNoDataValue(band, &known);
+    if (known != 0)
+        return NULL;
+    switch (GDALGetRasterDataType(band)) {
+    case GDT_Float32:
+    case GDT_Float64:
+        return "nan";
+    case GDT_Int16:
+        return "-32768";
+    default:
+        return NULL;
+    }
+}
+
 /* The window, resampled, as a dataset in memory. */
 static GDALDatasetH source_resample(const source_t *source, const yb_grid_t *grid)
 {
     char **words = CSLTokenizeString2("-of MEM -ot Float32 -dstnodata nan", " ", 0);
+    const char *hole = hole_mark(source);
+    if (hole != NULL) {
+        words = CSLAddString(words, "-srcnodata");
+        words = CSLAddString(words, hole);
+    }
     words = CSLAddString(words, "-r");
     words = CSLAddString(words, grid->cell_m > 1.5 * source->native_m ? "average" : "bilinear");
     if (source->local != NULL) {
@@ -401,10 +470,13 @@ yb_grid_t *yb_grid_read(const char *path, const yb_window_t *window, int most, y
     GDALAllRegister();
     CPLPushErrorHandler(CPLQuietErrorHandler);
     CPLErrorReset();
+    if (CPLGetConfigOption("GDAL_CACHEMAX", NULL) == NULL)
+        GDALSetCacheMax64(CACHE_BYTES);
     double cell_m = window->cell_m > 0 ? window->cell_m : YB_GRID_DEFAULT_CELL_M;
     if (source_open(&source, cell_m, error) && source_choose(&source, window, error))
         grid = grid_lay(&source, most, error);
-    if (grid != NULL && !grid_fill(&source, grid, error)) {
+    if (grid != NULL &&
+        !(source_thin(&source, grid->cell_m, error) && grid_fill(&source, grid, error))) {
         yb_grid_free(grid);
         grid = NULL;
     }
@@ -412,8 +484,9 @@ yb_grid_t *yb_grid_read(const char *path, const yb_window_t *window, int most, y
         OSRDestroySpatialReference(source.local);
     if (source.dataset != NULL)
         GDALClose(source.dataset);
-    if (source.wrapped != NULL)
-        GDALClose(source.wrapped);
+    for (int i = 1; i >= 0; i--)
+        if (source.wrapped[i] != NULL)
+            GDALClose(source.wrapped[i]);
     CPLPopErrorHandler();
     return grid;
 }

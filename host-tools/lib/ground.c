@@ -1,7 +1,10 @@
 #include "ground.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include <cpl_conv.h>
 
 enum {
     SIDE_SAMPLES = 21
@@ -49,6 +52,39 @@ OGRSpatialReferenceH yb_ground_local(OGRSpatialReferenceH srs, double x, double 
     OSRSetTM(local, y, x, 1, 0, 0);
     OSRSetLinearUnits(local, SRS_UL_METER, 1);
     return local;
+}
+
+char *yb_ground_local_wkt(double lon_deg, double lat_deg)
+{
+    OGRSpatialReferenceH degrees = yb_ground_lon_lat();
+    OGRSpatialReferenceH local = yb_ground_local(degrees, lon_deg, lat_deg);
+    char *text = NULL;
+    char *copy = NULL;
+    if (local != NULL && OSRExportToWkt(local, &text) == OGRERR_NONE)
+        copy = strdup(text);
+    CPLFree(text);
+    OSRDestroySpatialReference(local);
+    OSRDestroySpatialReference(degrees);
+    return copy;
+}
+
+bool yb_ground_place(const char *projection, double x, double y, double *lon_deg, double *lat_deg)
+{
+    if (projection == NULL)
+        return false;
+    OGRSpatialReferenceH from = OSRNewSpatialReference(projection);
+    OGRSpatialReferenceH degrees = yb_ground_lon_lat();
+    bool good = from != NULL && OSRIsLocal(from) == 0;
+    if (good) {
+        OSRSetAxisMappingStrategy(from, OAMS_TRADITIONAL_GIS_ORDER);
+        good = yb_ground_transform(from, degrees, &x, &y);
+    }
+    if (from != NULL)
+        OSRDestroySpatialReference(from);
+    OSRDestroySpatialReference(degrees);
+    *lon_deg = x;
+    *lat_deg = y;
+    return good;
 }
 
 bool yb_ground_box_inside(OGRSpatialReferenceH from, OGRSpatialReferenceH to, const double box[4],

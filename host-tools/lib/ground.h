@@ -19,6 +19,14 @@ bool yb_ground_in_metres(OGRSpatialReferenceH srs);
  */
 OGRSpatialReferenceH yb_ground_local(OGRSpatialReferenceH srs, double x, double y);
 
+/* The same at a longitude and latitude, as WKT that the caller frees by free. NULL: no memory. */
+char *yb_ground_local_wkt(double lon_deg, double lat_deg);
+
+/* Longitude and latitude of a place in a projection, WKT; false if it is NULL, local, or without a
+ * way there.
+ */
+bool yb_ground_place(const char *projection, double x, double y, double *lon_deg, double *lat_deg);
+
 /* Moves a point from one system to another; false if that is impossible. */
 bool yb_ground_transform(OGRSpatialReferenceH from, OGRSpatialReferenceH to, double *x, double *y);
 

@@ -11,6 +11,11 @@
 
 /* A gap of up to this share of a line's length is closed. */
 static const double most_gap = 0.1;
+/* A line whose end is moved to the frame by more than this share of `snap_m` counts as mended. The
+ * border of a sheet in degrees is no rectangle in metres: its ends all move a little.
+ */
+static const double least_mend = 0.001;
+static const double least_mend_bent = 0.25;
 
 static GEOSGeometry *from_ogr(GEOSContextHandle_t geos, OGRGeometryH geometry)
 {
@@ -73,7 +78,9 @@ static double distance(yb_place_t a, yb_place_t b)
 static bool add_line(yb_lines_t *lines, double height_m, yb_place_t *place, int count,
                      double snap_m)
 {
-    bool closed = distance(place[0], place[count - 1]) == 0;
+    yb_place_t first_place = place[0];
+    yb_place_t last_place = place[count - 1];
+    bool closed = distance(first_place, last_place) == 0;
     if (closed) {
         count--;
     } else {
@@ -90,7 +97,15 @@ static bool add_line(yb_lines_t *lines, double height_m, yb_place_t *place, int 
     }
     if (count < (closed ? 3 : 2))
         return true;
-    return yb_lines_add(lines, height_m, closed, place, count);
+    double least_m = (lines->input_system != NULL ? least_mend_bent : least_mend) * snap_m;
+    bool mended = distance(first_place, place[0]) > least_m ||
+                  (closed && distance(first_place, last_place) > 0);
+    if (!closed)
+        mended = mended || distance(last_place, place[count - 1]) > least_m;
+    if (!yb_lines_add(lines, height_m, closed, place, count))
+        return false;
+    lines->line[lines->count - 1].mended = mended;
+    return true;
 }
 
 /* The places of a line string; none of a point, which is what a line that only touched the frame

@@ -1,4 +1,4 @@
-/* Contour lines on a lattice, none touching another or itself: what docs/SPEC.md 1.6 asks for.
+/* Contour lines on a lattice, none touching another or itself: what docs/SPEC.md 1.5 asks for.
  *
  * Lines are laid one after the other. A line is walked point by point: each goes to the nearest
  * node that the line so far can reach without touching anything, mostly the one nearest to it,

@@ -160,17 +160,6 @@ static bool put_contours(writer_t *writer, const yb_paper_t *paper)
     return true;
 }
 
-static uint8_t crc8(const uint8_t *bytes, size_t count)
-{
-    unsigned crc = 0;
-    for (size_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = (crc & 0x80) != 0 ? (crc << 1 ^ 0x07) & 0xff : crc << 1;
-    }
-    return (uint8_t)crc;
-}
-
 size_t yb_paper_write(const yb_paper_t *paper, uint8_t code[YB_MAX_CODE_BYTES])
 {
     writer_t writer = {.code = code};
@@ -180,7 +169,7 @@ size_t yb_paper_write(const yb_paper_t *paper, uint8_t code[YB_MAX_CODE_BYTES])
         return 0;
     if (writer.held > 0)
         put_bits(&writer, 0, 8 - writer.held);
-    put_byte(&writer, crc8(code, writer.size));
+    put_byte(&writer, yb_sections_check(code, writer.size));
     return writer.size;
 }
 

@@ -13,6 +13,7 @@
 #include <yamabiko/yamabiko.h>
 
 #include "code_file.h"
+#include "sections.h"
 
 enum {
     YB_PAPER_CONTOURS = 255,
@@ -50,6 +51,8 @@ typedef struct {
     uint16_t corner[YB_CORNERS];
     uint16_t frame; /* its height if no corner is coded */
     int vertices;   /* of the mesh, which only the engine can count; 0: not known yet */
+    /* compact: what follows the relief, borrowed; NULL: nothing */
+    const yb_sections_t *sections;
     int contour_count;
     int point_count;
     yb_paper_contour_t contour[YB_PAPER_CONTOURS];

@@ -30,6 +30,13 @@ enum {
 static const double snap_share = 0.02;
 /* In metres, feet or degrees: beyond any place on earth. */
 static const double most_coordinate = 1e9;
+/* More is a mark that there is no height. */
+static const double most_height_m = 30000;
+static const char blanks[] = " \t\r\n";
+static const double degree_m = 111320;
+enum {
+    MOST_DECIMALS = 9
+};
 /* Room round lines that are all closed. */
 static const double margin_share = 0.06;
 
@@ -47,6 +54,7 @@ typedef struct {
     shape_t *shape;
     int count, room;
     double box[4];
+    int decimals; /* of the coordinates, at most */
 } reader_t;
 
 bool yb_lines_is_vector(const char *path)
@@ -120,19 +128,56 @@ static double mean_z(OGRGeometryH geometry)
     return sum;
 }
 
-/* The attribute as a number; false if it is none. */
-static bool feature_height(const reader_t *reader, OGRFeatureH feature, double *height_m)
+/* A plain number, perhaps with the unit m: "1200", " -3.5 m"; not "1.200,5", "0x20" or "900 ft". */
+static bool text_height(const char *text, double *height_m)
 {
-    if (reader->field < 0) {
-        *height_m = mean_z(OGR_F_GetGeometryRef(feature));
-        return isfinite(*height_m);
-    }
-    if (OGR_F_IsFieldSetAndNotNull(feature, reader->field) == 0)
-        return false;
-    const char *text = OGR_F_GetFieldAsString(feature, reader->field);
+    text += strspn(text, blanks);
+    size_t digits = strspn(text, "+-.0123456789eE");
     char *end = NULL;
     *height_m = strtod(text, &end);
-    return end != text && isfinite(*height_m) && fabs(*height_m) < 30000;
+    if (end == text || end != text + digits)
+        return false;
+    end += strspn(end, blanks);
+    end += *end == 'm';
+    return end[strspn(end, blanks)] == '\0';
+}
+
+static bool no_number(const reader_t *reader, OGRFeatureH feature, yb_error_t *error)
+{
+    char shown[40];
+    snprintf(shown, sizeof(shown), "%s", OGR_F_GetFieldAsString(feature, reader->field));
+    for (char *at = shown; *at != '\0'; at++)
+        if ((unsigned char)*at < ' ' || *at == 0x7f)
+            *at = '?';
+    return yb_error_set(error,
+                        "the height of feature %lld of %s is the text '%s' (attribute %s): only a "
+                        "plain number of metres can be read, such as 1200, -3.5 or 1200 m",
+                        (long long)OGR_F_GetFID(feature), reader->path, shown,
+                        OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, reader->field)));
+}
+
+/* The feature's height; *found is false if it has none. False: it has one that is no number. */
+static bool feature_height(const reader_t *reader, OGRFeatureH feature, double *height_m,
+                           bool *found, yb_error_t *error)
+{
+    *found = false;
+    if (reader->field < 0) {
+        *height_m = mean_z(OGR_F_GetGeometryRef(feature));
+        *found = isfinite(*height_m);
+        return true;
+    }
+    if (OGR_F_IsFieldSetAndNotNull(feature, reader->field) == 0)
+        return true;
+    OGRFieldType type = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, reader->field));
+    const char *text = OGR_F_GetFieldAsString(feature, reader->field);
+    if (text[strspn(text, blanks)] == '\0')
+        return true;
+    if (type == OFTInteger || type == OFTInteger64 || type == OFTReal)
+        *height_m = OGR_F_GetFieldAsDouble(feature, reader->field);
+    else if (!text_height(text, height_m))
+        return no_number(reader, feature, error);
+    *found = isfinite(*height_m) && fabs(*height_m) < most_height_m;
+    return true;
 }
 
 static bool add_shape(reader_t *reader, double height_m, OGRGeometryH geometry)
@@ -174,13 +219,15 @@ static bool read_shapes(reader_t *reader, yb_error_t *error)
     while (feature != NULL) {
         double height_m = 0;
         bool good = true;
+        bool found = false;
         OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
-        if (geometry != NULL && OGR_G_IsEmpty(geometry) == 0 &&
-            feature_height(reader, feature, &height_m))
-            good = take_geometry(reader, height_m, OGR_F_StealGeometry(feature));
+        if (geometry != NULL && OGR_G_IsEmpty(geometry) == 0)
+            good = feature_height(reader, feature, &height_m, &found, error);
+        if (found && !take_geometry(reader, height_m, OGR_F_StealGeometry(feature)))
+            good = yb_error_set(error, "%s: out of memory", reader->path);
         OGR_F_Destroy(feature);
         if (!good)
-            return yb_error_set(error, "%s: out of memory", reader->path);
+            return false;
         feature = OGR_L_GetNextFeature(reader->layer);
     }
     if (reader->count == 0)
@@ -224,6 +271,28 @@ static bool cut_by_extent(const reader_t *reader)
     return ends >= 2;
 }
 
+/* Counts the decimals that the coordinates of a geometry need. */
+static void count_decimals(reader_t *reader, OGRGeometryH geometry)
+{
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        count_decimals(reader, OGR_G_GetGeometryRef(geometry, i));
+    for (int i = 0; i < 2 * OGR_G_GetPointCount(geometry); i++) {
+        double value = i % 2 == 0 ? OGR_G_GetX(geometry, i / 2) : OGR_G_GetY(geometry, i / 2);
+        double scaled = value * pow(10, reader->decimals);
+        while (reader->decimals < MOST_DECIMALS && fabs(scaled - round(scaled)) > 1e-3)
+            scaled = value * pow(10, ++reader->decimals);
+    }
+}
+
+/* What that is on the ground; `srs` is the file's own system. */
+static double precision_m(const reader_t *reader, OGRSpatialReferenceH srs)
+{
+    double unit_m = srs == NULL || OSRIsLocal(srs) != 0 ? 1
+                    : OSRIsGeographic(srs) != 0         ? degree_m
+                                                        : OSRGetLinearUnits(srs, NULL);
+    return unit_m * pow(10, -reader->decimals);
+}
+
 /* Brings all shapes to metres if their coordinates are not. */
 static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *error)
 {
@@ -233,6 +302,8 @@ static bool to_metres(reader_t *reader, OGRSpatialReferenceH srs, yb_error_t *er
         if (!(fabs(box[i]) < most_coordinate)) /* GDAL would turn round the earth for ever */
             return yb_error_set(error, "the coordinates of %s reach %g: that is no place on earth",
                                 reader->path, box[i]);
+    for (int i = 0; i < reader->count; i++)
+        count_decimals(reader, reader->shape[i].geometry);
     if (yb_ground_in_metres(srs))
         return true;
     reader->local = yb_ground_local(srs, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2);
@@ -370,18 +441,27 @@ static void reader_close(reader_t *reader)
         GDALClose(reader->dataset);
 }
 
+/* As text that is freed by free; *text stays NULL without a system. False: no memory. */
+static bool copy_system(OGRSpatialReferenceH srs, char **text)
+{
+    char *wkt = NULL;
+    if (srs != NULL && OSRExportToWkt(srs, &wkt) == OGRERR_NONE)
+        *text = strdup(wkt);
+    bool good = wkt == NULL || *text != NULL;
+    CPLFree(wkt);
+    return good;
+}
+
 /* Where the frame lies, in the file's own projection or the local one. */
 static bool set_origin(const reader_t *reader, OGRSpatialReferenceH srs, yb_lines_t *lines)
 {
-    OGRSpatialReferenceH used = reader->local != NULL ? reader->local : srs;
     lines->origin.west_m = reader->box[0];
     lines->origin.south_m = reader->box[1];
-    char *wkt = NULL;
-    if (used != NULL && OSRExportToWkt(used, &wkt) == OGRERR_NONE)
-        lines->origin.projection = strdup(wkt);
-    bool good = wkt == NULL || lines->origin.projection != NULL;
-    CPLFree(wkt);
-    return good;
+    lines->precision_m = precision_m(reader, srs);
+    if (reader->local == NULL)
+        return copy_system(srs, &lines->origin.projection);
+    return copy_system(reader->local, &lines->origin.projection) &&
+           copy_system(srs, &lines->input_system);
 }
 
 yb_lines_t *yb_lines_from_vector(const char *path, const char *field, const yb_window_t *window,

@@ -81,7 +81,7 @@ def spoilt(code):
     yield "corrupt", mended(code[:1] + bytes([code[1] | 8]) + code[2:-1])
     yield "version", mended(b"\x10" + code[1:-1])
     crossing = bytes.fromhex(code.hex().replace("4040600018a00", "4040618a00628"))
-    if crossing != code:  # the square of SPEC 1.5 has become a bow
+    if crossing != code:  # the square of SPEC 1.6 has become a bow
         yield "corrupt", mended(crossing[:-1])
     found = second_decoder.decode(code)
     exact, added = len(found.vertex), len(found.vertex) > found.coded

@@ -1,7 +1,7 @@
 /* A map as a plan: contours in whole steps, before it becomes a code of the paper profile.
  *
  * plan_write puts down whatever the plan says, legal or not; plan_valid says by brute force, in its
- * own arithmetic, whether it is legal (SPEC 1.4). The two together tell what the engine must
+ * own arithmetic, whether it is legal (SPEC 1.5). The two together tell what the engine must
  * answer.
  */
 #ifndef TEST_PLAN_H
@@ -61,7 +61,7 @@ int plan_vertices(const plan_t *plan);
 /* Can the bytes say it: counts, differences, at most `most` vertices? */
 bool plan_codable(const plan_t *plan, int most);
 
-/* Is it legal by SPEC 1.4? */
+/* Is it legal by SPEC 1.5? */
 bool plan_valid(const plan_t *plan);
 
 /* Is the contour an open line (true) or a closed one or a point (false)? */

@@ -112,7 +112,42 @@ static void a_line_may_end_in_a_corner(void **state)
     assert_int_equal(corner(3), 10 * 256);
 }
 
-/* All ways an open line of two or three points can lie: legal exactly when SPEC 1.4 says so. */
+/* The base of a compact code may lie above the ground. */
+static void corners_may_lie_below_the_base(void **state)
+{
+    (void)state;
+    static const struct {
+        int32_t west, east;
+    } cases[] = {{-700, -700}, {-701, 100}, {701, -100}, {-1, 0}, {5, 9}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        yb_map_begin(&map, &load);
+        map.east_q8 = 50 * 256;
+        map.north_q8 = 50 * 256;
+        map.cell = 64;
+        map.unit = 64;
+        map.hurst_q8m1 = 255;
+        load.contour_count = 2;
+        load.point_count = 4;
+        load.contour[0] = (yb_contour_t){.first = 0, .count = 2};
+        load.contour[1] = (yb_contour_t){.first = 2, .count = 2};
+        const int x[] = {10, 0, 20, 50};
+        const int y[] = {0, 10, 0, 30};
+        for (int k = 0; k < 4; k++)
+            map.vertex[k] = (yb_vertex_t){.x_q8 = (uint16_t)(x[k] * 256),
+                                          .y_q8 = (uint16_t)(y[k] * 256),
+                                          .z_q8 = k < 2 ? cases[i].west : cases[i].east};
+        assert_int_equal(yb_map_build(&map, &load), YB_OK);
+        assert_int_equal(corner(0), cases[i].west);
+        assert_int_equal(corner(1), cases[i].east);
+        /* 20 steps from the end in the east, 90 from that in the west. */
+        int64_t far = (int64_t)cases[i].west * 20 + (int64_t)cases[i].east * 90;
+        int64_t z = (far + 55) / 110;
+        z -= far + 55 < 0 && (far + 55) % 110 != 0;
+        assert_int_equal(corner(2), z);
+    }
+}
+
+/* All ways an open line of two or three points can lie: legal exactly when SPEC 1.5 says so. */
 static void all_short_lines(void **state)
 {
     (void)state;
@@ -146,6 +181,7 @@ int main(void)
         cmocka_unit_test(coded_corners_have_their_heights),
         cmocka_unit_test(corners_lie_between_the_ends_of_lines),
         cmocka_unit_test(a_line_may_end_in_a_corner),
+        cmocka_unit_test(corners_may_lie_below_the_base),
         cmocka_unit_test(all_short_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -150,8 +150,8 @@ typedef struct {
     uint16_t unit;     /* metres per unit of coded height, as coded */
     int16_t base_m;    /* metres above the datum of z = 0 */
     uint8_t seed;
-    uint8_t certified_error; /* 0: nobody says; else see yb_certified_error_m … */
-    uint8_t certified_k;     /* K in 1/256 of the lines, if certified_error is not 0 */
+    uint8_t certified_error; /* of heights; 0: nobody says, else see yb_certified_error_m */
+    uint8_t certified_k;     /* similarity K of the lines in 1/255, if certified_error is not 0 */
     uint8_t hurst_q8m1;      /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
     bool smooth;             /* midpoints follow the slopes of the ends */
     bool detail;             /* midpoints move by noise; clear it to get the smooth part alone */
@@ -288,7 +288,7 @@ YB_MUST_CHECK yb_status_t yb_map_end(yb_map_t *map, yb_load_t *load);
  *           corner_height[4] (SW SE NE NW; left alone: from the lines that meet the frame) and
  *           frame_height (where none does)
  *
- * by the rules of docs/SPEC.md 1.6. YB_OK, YB_ERR_CORRUPT: lines cross or touch, YB_ERR_LIMIT: the
+ * by the rules of docs/SPEC.md 1.5. YB_OK, YB_ERR_CORRUPT: lines cross or touch, YB_ERR_LIMIT: the
  * mesh would have more than YB_MAX_VERTICES.
  */
 YB_MUST_CHECK yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load);
@@ -322,6 +322,11 @@ static inline uint32_t yb_unit_64th_m(uint16_t coded)
 {
     return (uint32_t)(coded & 0xfff) << (coded >> 12);
 }
+
+/* What a map's certificate promises (docs/SPEC.md 1.4): nine tenths of all heights lie within so
+ * many metres of the truth, rounded up, 1 to 15025; 0: it has none. For "±22 m" on a display.
+ */
+uint16_t yb_certified_error_m(uint8_t certified_error);
 
 /* --- The view --------------------------------------------------------------------------------- */
 

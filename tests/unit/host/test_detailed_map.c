@@ -20,7 +20,7 @@ static const double side_m = 2550; /* steps of 10 m, grains of 62.5 cm */
 static yb_map_t map;
 static yb_load_t load;
 
-/* --- What SPEC 1.4 says, checked the slow way ------------------------------------------------- */
+/* --- What SPEC 1.5 says, checked the slow way ------------------------------------------------- */
 
 typedef struct {
     int64_t ax, ay, bx, by;
