@@ -172,8 +172,7 @@ static void cut_triangle(yb_level_cut_t *cut, yb_triangle_t triangle)
             child = split_child[step->pattern][++step->child & 3];
         }
         for (int i = 0; i < 3; i++)
-            step[1].corner[i] =
-                child[i] < 3 ? step->corner[child[i]] : &step->middle[child[i] - 3];
+            step[1].corner[i] = child[i] < 3 ? step->corner[child[i]] : &step->middle[child[i] - 3];
         step++;
     }
 }

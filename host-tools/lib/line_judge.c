@@ -8,6 +8,10 @@
 #include "similarity.h"
 #include "surface.h"
 
+enum {
+    MOST_HEIGHT_Q8 = 1 << 17
+};
+
 typedef struct {
     double height_m, unit_m;
     yb_outline_t *outline;
@@ -256,11 +260,20 @@ static double polygon_length(const yb_isoline_t *line)
     return length;
 }
 
+/* Heights that the engine's arithmetic has no room for would come of a decoder's mistake. */
+static bool heights_are_sane(const yb_map_t *map)
+{
+    for (int i = 0; i < map->vertex_count; i++)
+        if (abs(map->vertex[i].z_q8) > 2 * MOST_HEIGHT_Q8)
+            return false;
+    return true;
+}
+
 bool yb_line_judge_score(yb_line_judge_t *judge, const uint8_t *code, size_t size,
                          uint16_t longest_q8, yb_line_score_t *score, double *each)
 {
     yb_map_t *map = &judge->map;
-    if (yb_map_load(map, &judge->load, code, size) != YB_OK)
+    if (yb_map_load(map, &judge->load, code, size) != YB_OK || !heights_are_sane(map))
         return false;
     *score = (yb_line_score_t){.vertices = map->vertex_count};
     double sum = 0;
@@ -271,7 +284,8 @@ bool yb_line_judge_score(yb_line_judge_t *judge, const uint8_t *code, size_t siz
     int32_t cut_q8 = INT32_MIN;
     for (int i = 0; i < judge->load.contour_count; i++) {
         yb_point2_t point[YB_PAPER_POINTS];
-        yb_isoline_t coded = {.point = point, .count = contour[i].count, .closed = !contour[i].open};
+        yb_isoline_t coded = {
+            .point = point, .count = contour[i].count, .closed = !contour[i].open};
         if (each != NULL)
             each[i] = 0;
         if (coded.count < 2 || coded.count > YB_PAPER_POINTS)

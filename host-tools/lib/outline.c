@@ -58,8 +58,8 @@ static void measure_boundary(yb_outline_t *outline)
 {
     double longest = 0;
     for (size_t i = 0; i < outline->boundary; i++) {
-        double square = squared(outline->point[i],
-                                outline->point[i + 1 == outline->boundary ? 0 : i + 1]);
+        double square =
+            squared(outline->point[i], outline->point[i + 1 == outline->boundary ? 0 : i + 1]);
         longest = square > longest ? square : longest;
     }
     outline->longest = sqrt(longest);
@@ -128,9 +128,9 @@ bool yb_outline_make(yb_outline_t *outline, const yb_isoline_t *line, bool turne
             outline->point[i] = line->point[turned ? line->count - 1 - i : i];
         outline->boundary = line->count;
         if (!line->closed)
-            outline->boundary += yb_region_frame_points(outline->point[line->count - 1],
-                                                        outline->point[0], east, north,
-                                                        outline->point + line->count);
+            outline->boundary +=
+                yb_region_frame_points(outline->point[line->count - 1], outline->point[0], east,
+                                       north, outline->point + line->count);
         measure_boundary(outline);
         measure_line(outline);
         good = outline->area > 0 && outline->length > 0 && cross_rows(outline, north);

@@ -24,11 +24,11 @@ typedef struct {
     size_t boundary; /* all round */
     bool closed;     /* the line */
     double area;
-    double length; /* of the line */
+    double length;  /* of the line */
     double longest; /* of the boundary's segments */
-    double *at;    /* distance along the line of each of its points; count + 1 values */
-    int *first;    /* crossing of each row, YB_OUTLINE_ROWS + 1 values */
-    float *cross;  /* where the boundary crosses the rows, rising */
+    double *at;     /* distance along the line of each of its points; count + 1 values */
+    int *first;     /* crossing of each row, YB_OUTLINE_ROWS + 1 values */
+    float *cross;   /* where the boundary crosses the rows, rising */
 } yb_outline_t;
 
 /* Area inside a closed line. */

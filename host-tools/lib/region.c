@@ -128,9 +128,8 @@ static bool make_region(GEOSContextHandle_t geos, yb_region_t *region, const yb_
     for (size_t i = 0; i < line->count; i++)
         region->point[i] = line->point[turned ? line->count - 1 - i : i];
     if (!region->closed)
-        region->boundary +=
-            yb_region_frame_points(region->point[line->count - 1], region->point[0], east, north,
-                                   region->point + line->count);
+        region->boundary += yb_region_frame_points(region->point[line->count - 1], region->point[0],
+                                                   east, north, region->point + line->count);
     if (region->boundary >= 3)
         region->shape = make_shape(geos, region->point, region->boundary);
     if (region->shape != NULL && GEOSArea_r(geos, region->shape, &region->area) == 1 &&
