@@ -10,39 +10,31 @@
 #include "fractal.h"
 #include "line_grid.h"
 #include "sketch.h"
-#include "target_moves.h"
+#include "target_draft.h"
 #include "target_search.h"
 
 enum {
     JUDGE_SIDE = 48,
     MOST_DRAFTS = 12,
     COARSE_Q8 = 4 * YB_REFERENCE_Q8, /* for all but the last trials */
-    MEASURED_LEVELS = 9,
-    START_GAIN = 16
+    MEASURED_LEVELS = 9
 };
 
 /* Trials at effort 5: on each draft, on each of the best ones, on the best of all, first coarse,
  * then as evaluate measures.
  */
 enum {
-    ON_EACH = 500,
-    ON_BETTER = 2500,
-    ON_BEST = 8000,
-    ON_FINE = 4000,
+    ON_EACH = 400,
+    ON_BETTER = 1600,
+    ON_BEST = 6000,
+    ON_FINE = 3000,
     BETTER = 3,
     MOST_ROUNDS = 3 /* of the last, as long as nothing was found */
 };
 
 enum {
-    SPACINGS = 3,
-    MOST_SPACING = 16,
-    MOST_STEPS = 255
+    SPACINGS = 3
 };
-
-/* A frame may be so much wider or narrower than the relief. */
-static const double most_bent = 0.006;
-
-static const double draft_tolerance = 0.025;
 
 /* What 0.01 of K may cost at first: as much as eight points; and so many times more whenever a
  * search stays below the target.
@@ -104,58 +96,6 @@ static bool choose_levels(loop_t *loop, yb_error_t *error)
     return true;
 }
 
-/* Units of height between an eighth and a fifteenth of the standard deviation (and at most half the
- * least distance of given levels): the one that hits the summit best.
- */
-static uint16_t choose_unit(const loop_t *loop)
-{
-    double most_m = loop->grid->std_m / 8;
-    for (int i = 1; i < loop->levels; i++)
-        most_m = fmin(most_m, (loop->level_m[i] - loop->level_m[i - 1]) / 2);
-    uint16_t best = yb_compact_unit(most_m);
-    double least = HUGE_VAL;
-    double high_m = (double)loop->grid->high_m;
-    for (int i = 0; i <= 32; i++) {
-        uint16_t unit = yb_compact_unit(most_m / (1 + i / 32.0));
-        double unit_m = yb_paper_metres(unit);
-        double off_m = fabs(high_m - round(high_m / unit_m) * unit_m);
-        if (off_m < least - 1e-9) {
-            least = off_m;
-            best = unit;
-        }
-    }
-    return best;
-}
-
-static void begin_paper(const loop_t *loop, yb_paper_t *paper, int spacing)
-{
-    const yb_grid_t *grid = loop->grid;
-    double width_m = yb_grid_width_m(grid);
-    double depth_m = yb_grid_depth_m(grid);
-    yb_sketch_begin(paper, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
-    paper->seed = loop->task->seed & 127;
-    paper->profile = loop->task->profile;
-    paper->gain = START_GAIN;
-    paper->dimension = yb_fractal_coded(loop->dimension);
-    if (paper->profile == YB_COMPACT) {
-        paper->cell = yb_compact_cell(fmax(width_m / paper->east, depth_m / paper->north));
-        paper->unit = choose_unit(loop);
-        paper->base = (int)floor((double)grid->low_m / yb_paper_metres(paper->unit)) - 20;
-        paper->vertex_class = 7;
-        paper->gain = yb_compact_gain(START_GAIN);
-        paper->dimension = yb_compact_dimension(paper->dimension);
-    }
-    const double corner_m[YB_CORNERS][2] = {{0, 0}, {width_m, 0}, {width_m, depth_m}, {0, depth_m}};
-    double sum = 0;
-    for (int i = 0; i < YB_CORNERS; i++) {
-        double height_m = yb_grid_height(grid, corner_m[i][0], corner_m[i][1]);
-        paper->corner[i] = yb_paper_height(paper, height_m);
-        sum += height_m;
-    }
-    paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
-    paper->corners = 0xf;
-}
-
 static yb_target_search_t search_of(loop_t *loop, draft_t *draft, uint64_t seed)
 {
     int gain = draft->paper.gain;
@@ -174,34 +114,18 @@ static yb_target_search_t search_of(loop_t *loop, draft_t *draft, uint64_t seed)
                                 .seed = seed};
 }
 
-/* The heights of a draft's lines: even steps of height and of area, half and half. */
-static void draft_lines(loop_t *loop, draft_t *draft, int count)
-{
-    yb_target_search_t search = search_of(loop, draft, 1);
-    yb_target_mover_t mover = {.search = &search, .paper = &draft->paper};
-    double low_m = (double)loop->grid->low_m;
-    double high_m = (double)loop->grid->high_m;
-    double side = fmax(draft->paper.east, draft->paper.north);
-    for (int i = 0; i < count; i++) {
-        double share = (i + 0.5) / count;
-        double height_m =
-            (yb_sketch_quantile(loop->grid, share) + low_m + (high_m - low_m) * share) / 2;
-        if (loop->levels > 0)
-            height_m = loop->level_m[(int)(share * loop->levels)];
-        yb_paper_t before = draft->paper;
-        for (double finer = 1; finer > 0.2; finer /= 2) {
-            if (yb_target_add_line(&mover, height_m, finer * draft_tolerance * side, false))
-                break;
-            draft->paper = before;
-        }
-    }
-}
-
 /* A draft is kept if a code can be made of it, however bad and long it is. */
-static bool make_draft(loop_t *loop, int spacing, int lines)
+static bool make_draft(loop_t *loop, int wanted_spacing, int lines)
 {
     draft_t *draft = &loop->draft[loop->drafts];
-    begin_paper(loop, &draft->paper, spacing);
+    const yb_target_draft_t begin = {.grid = loop->grid,
+                                     .profile = loop->task->profile,
+                                     .seed = loop->task->seed & 127,
+                                     .dimension = loop->dimension,
+                                     .level_m = loop->level_m,
+                                     .levels = loop->levels};
+    bool good = yb_target_draft_begin(&begin, &draft->paper,
+                                      yb_target_draft_spacing(&begin, wanted_spacing));
     for (int i = 0; i < loop->drafts && draft->lines == NULL; i++)
         if (loop->draft[i].paper.east == draft->paper.east &&
             loop->draft[i].paper.north == draft->paper.north)
@@ -211,12 +135,9 @@ static bool make_draft(loop_t *loop, int spacing, int lines)
             yb_line_judge_new(loop->grid, loop->given, draft->paper.east, draft->paper.north);
     if (draft->lines == NULL)
         return false;
-    yb_lines_t frame = {.width_m = yb_grid_width_m(loop->grid),
-                        .depth_m = yb_grid_depth_m(loop->grid)};
-    bool good = yb_sketch_spot(&draft->paper, &frame, yb_sketch_summit(loop->grid),
-                               (double)loop->grid->high_m, YB_PAPER_MOST_BYTES);
+    yb_target_search_t search = search_of(loop, draft, 1);
     if (good)
-        draft_lines(loop, draft, lines);
+        yb_target_draft_lines(&search, &draft->paper, lines);
     draft->score.cost = good ? 0 : HUGE_VAL;
     loop->drafts++;
     return true;
@@ -269,37 +190,13 @@ static long scaled(const loop_t *loop, int trials)
     return (long)trials * (1L << (loop->task->effort - 1)) / 16 + 1;
 }
 
-/* The spacing near the wanted one on which the frame keeps its shape. */
-static int choose_spacing(const loop_t *loop, int wanted)
-{
-    double longest_m = fmax(yb_grid_width_m(loop->grid), yb_grid_depth_m(loop->grid));
-    double shortest_m = fmin(yb_grid_width_m(loop->grid), yb_grid_depth_m(loop->grid));
-    bool paper = loop->task->profile == YB_PAPER;
-    int best = wanted;
-    double least = HUGE_VAL;
-    for (int i = 0; i <= 2 * MOST_SPACING; i++) {
-        int spacing = wanted + (i % 2 == 0 ? -i / 2 : i / 2 + 1); /* wanted, + 1, - 1, + 2 … */
-        if (spacing < 1 || spacing > MOST_SPACING || (paper && (8 % spacing) != 0))
-            continue;
-        double steps = shortest_m / longest_m * (MOST_STEPS / spacing);
-        double bent = fabs(round(steps) / steps - 1);
-        if (bent < least) {
-            least = bent;
-            best = spacing;
-        }
-        if (bent < most_bent)
-            return spacing;
-    }
-    return best;
-}
-
 static bool make_drafts(loop_t *loop, yb_error_t *error)
 {
     static const int spacing[2][SPACINGS] = {{6, 9, 12}, {4, 8, 8}};
     bool paper = loop->task->profile == YB_PAPER;
     for (int lines = YB_TARGET_LEVELS; lines < YB_TARGET_LEVELS + 3; lines++)
         for (int i = 0; i < SPACINGS; i++)
-            if (!make_draft(loop, choose_spacing(loop, spacing[paper ? 1 : 0][i]), lines))
+            if (!make_draft(loop, spacing[paper ? 1 : 0][i], lines))
                 return yb_error_set(error, "out of memory");
     return true;
 }

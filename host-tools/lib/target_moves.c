@@ -1,11 +1,10 @@
 #include "target_moves.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "compact_code.h"
-#include "simplify.h"
+#include "target_shapes.h"
 
 typedef bool (*move_fn)(yb_target_mover_t *mover);
 
@@ -18,14 +17,12 @@ double yb_target_random(yb_target_mover_t *mover)
     return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-/* 0 to count - 1 */
-static int below(yb_target_mover_t *mover, int count)
+int yb_target_below(yb_target_mover_t *mover, int count)
 {
     return (int)(yb_target_random(mover) * count);
 }
 
-/* Symmetric round 0, more often small than large; within 1.5 sizes. */
-static double bell(yb_target_mover_t *mover, double size)
+double yb_target_bell(yb_target_mover_t *mover, double size)
 {
     double sum = yb_target_random(mover) + yb_target_random(mover) + yb_target_random(mover);
     return (sum - 1.5) * size;
@@ -43,40 +40,21 @@ double yb_target_height_m(const yb_paper_t *paper, int height)
                                         : paper->base_m + height * unit_m;
 }
 
-static bool is_inner(const yb_paper_t *paper, int x, int y)
+bool yb_target_is_inner(const yb_paper_t *paper, int x, int y)
 {
     int margin = paper->spacing;
     return x >= margin && y >= margin && x <= paper->east - margin && y <= paper->north - margin;
 }
 
-/* A line (not a spot height) at random; -1: there is none. */
-static int any_line(yb_target_mover_t *mover)
+int yb_target_any(yb_target_mover_t *mover, bool spot)
 {
     const yb_paper_t *paper = mover->paper;
-    int lines = 0;
-    for (int i = 0; i < paper->contour_count; i++)
-        lines += paper->contour[i].count > 1;
-    if (lines == 0)
-        return -1;
-    int left = below(mover, lines);
-    for (int i = 0; i < paper->contour_count; i++)
-        if (paper->contour[i].count > 1 && left-- == 0)
-            return i;
-    return -1;
-}
-
-/* A spot height but the summit; -1: there is none. */
-static int any_spot(yb_target_mover_t *mover)
-{
-    const yb_paper_t *paper = mover->paper;
-    int spots = 0;
+    int found = 0;
     for (int i = 1; i < paper->contour_count; i++)
-        spots += paper->contour[i].count == 1;
-    if (spots == 0)
-        return -1;
-    int left = below(mover, spots);
+        found += (paper->contour[i].count == 1) == spot;
+    int left = found > 0 ? yb_target_below(mover, found) : 0;
     for (int i = 1; i < paper->contour_count; i++)
-        if (paper->contour[i].count == 1 && left-- == 0)
+        if ((paper->contour[i].count == 1) == spot && left-- == 0)
             return i;
     return -1;
 }
@@ -86,15 +64,14 @@ static bool is_end(const yb_paper_contour_t *line, int at)
     return line->open && (at == 0 || at == line->count - 1);
 }
 
-static int random_step(yb_target_mover_t *mover)
+int yb_target_step(yb_target_mover_t *mover)
 {
     int spacing = mover->paper->spacing;
     double reach = spacing * 1.2 + 20 * mover->heat;
-    return (int)lround(bell(mover, reach) / spacing) * spacing;
+    return (int)lround(yb_target_bell(mover, reach) / spacing) * spacing;
 }
 
-/* Ends of open lines slide along the frame. */
-static bool shift_point(yb_target_mover_t *mover, int line, int at, int x, int y)
+bool yb_target_shift(yb_target_mover_t *mover, int line, int at, int x, int y)
 {
     yb_paper_t *paper = mover->paper;
     yb_step_t *point = &paper->point[yb_paper_first(paper, line) + at];
@@ -105,7 +82,7 @@ static bool shift_point(yb_target_mover_t *mover, int line, int at, int x, int y
         int along = upright ? point->y + y : point->x + x;
         if (along <= 0 || along >= (upright ? paper->north : paper->east))
             return false;
-    } else if (!is_inner(paper, point->x + x, point->y + y)) {
+    } else if (!yb_target_is_inner(paper, point->x + x, point->y + y)) {
         return false;
     }
     point->x = (uint8_t)(point->x + x);
@@ -115,26 +92,27 @@ static bool shift_point(yb_target_mover_t *mover, int line, int at, int x, int y
 
 static bool move_point(yb_target_mover_t *mover)
 {
-    int line = any_line(mover);
+    int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    int at = below(mover, mover->paper->contour[line].count);
-    int x = random_step(mover);
-    int y = random_step(mover);
-    return shift_point(mover, line, at, x, y);
+    int at = yb_target_below(mover, mover->paper->contour[line].count);
+    int x = yb_target_step(mover);
+    int y = yb_target_step(mover);
+    return yb_target_shift(mover, line, at, x, y);
 }
 
 /* Two neighbours the same way, so that their segment keeps its direction. */
 static bool move_segment(yb_target_mover_t *mover)
 {
-    int line = any_line(mover);
+    int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
     int count = mover->paper->contour[line].count;
-    int at = below(mover, count);
-    int x = random_step(mover);
-    int y = random_step(mover);
-    return shift_point(mover, line, at, x, y) && shift_point(mover, line, (at + 1) % count, x, y);
+    int at = yb_target_below(mover, count);
+    int x = yb_target_step(mover);
+    int y = yb_target_step(mover);
+    return yb_target_shift(mover, line, at, x, y) &&
+           yb_target_shift(mover, line, (at + 1) % count, x, y);
 }
 
 /* Two points of one line, each its own way. */
@@ -148,30 +126,30 @@ static bool move_two(yb_target_mover_t *mover)
 static bool add_point(yb_target_mover_t *mover)
 {
     yb_paper_t *paper = mover->paper;
-    int line = any_line(mover);
+    int line = yb_target_any(mover, false);
     if (line < 0 || paper->contour[line].count >= 200)
         return false;
     int count = paper->contour[line].count;
-    int at = below(mover, paper->contour[line].open ? count - 1 : count);
+    int at = yb_target_below(mover, paper->contour[line].open ? count - 1 : count);
     int first = yb_paper_first(paper, line);
     yb_step_t a = paper->point[first + at];
     yb_step_t b = paper->point[first + (at + 1) % count];
     int spacing = paper->spacing;
     double along = 0.25 + 0.5 * yb_target_random(mover);
-    double side = bell(mover, 0.5);
+    double side = yb_target_bell(mover, 0.5);
     int x = (int)lround((a.x + along * (b.x - a.x) - side * (b.y - a.y)) / spacing) * spacing;
     int y = (int)lround((a.y + along * (b.y - a.y) + side * (b.x - a.x)) / spacing) * spacing;
-    return is_inner(paper, x, y) &&
+    return yb_target_is_inner(paper, x, y) &&
            yb_paper_insert(paper, line, first + at + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
 }
 
 static bool remove_point(yb_target_mover_t *mover)
 {
     yb_paper_t *paper = mover->paper;
-    int line = any_line(mover);
+    int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    int at = below(mover, paper->contour[line].count);
+    int at = yb_target_below(mover, paper->contour[line].count);
     if (is_end(&paper->contour[line], at) ||
         (!paper->contour[line].open && paper->contour[line].count <= 4))
         return false;
@@ -184,8 +162,7 @@ static bool transfer_point(yb_target_mover_t *mover)
     return remove_point(mover) && add_point(mover);
 }
 
-/* The coded height nearest to a height that lines may have. */
-static uint16_t allowed_height(const yb_target_mover_t *mover, double height_m)
+uint16_t yb_target_allowed(const yb_target_mover_t *mover, double height_m)
 {
     const yb_target_search_t *search = mover->search;
     for (int i = 1; i < search->levels; i++)
@@ -197,46 +174,39 @@ static uint16_t allowed_height(const yb_target_mover_t *mover, double height_m)
     return yb_paper_line_height(mover->paper, search->levels == 1 ? search->level_m[0] : height_m);
 }
 
-static double any_height_m(yb_target_mover_t *mover)
-{
-    const yb_grid_t *grid = mover->search->grid;
-    double share = 0.05 + 0.85 * yb_target_random(mover);
-    return (double)grid->low_m + share * (double)(grid->high_m - grid->low_m);
-}
-
 static bool change_height(yb_target_mover_t *mover)
 {
     yb_paper_t *paper = mover->paper;
-    int line = any_line(mover);
+    int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
     uint16_t *height = &paper->contour[line].height;
     uint16_t before = *height;
     double unit_m = yb_paper_metres(paper->unit) * (1 << paper->interval);
-    double move_m = bell(mover, mover->search->grid->std_m * (0.15 + 0.4 * mover->heat));
+    double move_m = yb_target_bell(mover, mover->search->grid->std_m * (0.15 + 0.4 * mover->heat));
     if (mover->search->levels == 0 && fabs(move_m) < unit_m)
         move_m = move_m < 0 ? -unit_m : unit_m;
-    *height = allowed_height(mover, yb_target_height_m(paper, before) + move_m);
+    *height = yb_target_allowed(mover, yb_target_height_m(paper, before) + move_m);
     return *height != before;
 }
 
-static uint16_t moved_height(yb_target_mover_t *mover, uint16_t height)
+uint16_t yb_target_moved(yb_target_mover_t *mover, uint16_t height)
 {
     double std = mover->search->grid->std_m / yb_paper_metres(mover->paper->unit);
-    int move = (int)lround(bell(mover, std * (0.1 + 0.4 * mover->heat)));
+    int move = (int)lround(yb_target_bell(mover, std * (0.1 + 0.4 * mover->heat)));
     if (move == 0)
-        move = below(mover, 2) == 0 ? -1 : 1;
+        move = yb_target_below(mover, 2) == 0 ? -1 : 1;
     return (uint16_t)clamp(height + move, 0, UINT16_MAX);
 }
 
 static bool change_frame(yb_target_mover_t *mover)
 {
     yb_paper_t *paper = mover->paper;
-    int corner = below(mover, YB_CORNERS);
+    int corner = yb_target_below(mover, YB_CORNERS);
     if (paper->corners == 0)
-        paper->frame = moved_height(mover, paper->frame);
+        paper->frame = yb_target_moved(mover, paper->frame);
     else if ((paper->corners >> corner & 1) != 0)
-        paper->corner[corner] = moved_height(mover, paper->corner[corner]);
+        paper->corner[corner] = yb_target_moved(mover, paper->corner[corner]);
     else
         return false;
     return true;
@@ -244,126 +214,9 @@ static bool change_frame(yb_target_mover_t *mover)
 
 static bool toggle_corner(yb_target_mover_t *mover)
 {
-    mover->paper->corners = (uint8_t)(mover->paper->corners ^ 1U << below(mover, YB_CORNERS));
+    mover->paper->corners =
+        (uint8_t)(mover->paper->corners ^ 1U << yb_target_below(mover, YB_CORNERS));
     return true;
-}
-
-static bool drop_line(yb_target_mover_t *mover)
-{
-    int line = any_line(mover);
-    if (line < 0)
-        return false;
-    yb_paper_drop(mover->paper, line);
-    return true;
-}
-
-bool yb_target_add_line(yb_target_mover_t *mover, double height_m, double tolerance, bool random)
-{
-    yb_paper_t *paper = mover->paper;
-    uint16_t height = allowed_height(mover, height_m);
-    yb_line_level_t level = yb_line_judge_level(
-        mover->search->lines, yb_target_height_m(paper, height), yb_paper_metres(paper->unit));
-    double longest = 0;
-    const yb_outline_t *chosen = NULL;
-    for (int i = 0; i < level.count; i++) {
-        double length = level.outline[i].length;
-        length *= random ? yb_target_random(mover) : 1;
-        if (length > longest) {
-            longest = length;
-            chosen = &level.outline[i];
-        }
-    }
-    yb_place_t *place = chosen != NULL ? malloc(chosen->count * sizeof(*place)) : NULL;
-    if (place == NULL)
-        return false;
-    for (size_t i = 0; i < chosen->count; i++)
-        place[i] = (yb_place_t){chosen->point[i].x, chosen->point[i].y};
-    yb_line_t line = {.closed = chosen->closed, .count = (int)chosen->count, .place = place};
-    yb_lattice_t lattice = {.width_m = paper->east,
-                            .depth_m = paper->north,
-                            .east = paper->east,
-                            .north = paper->north,
-                            .spacing = paper->spacing};
-    yb_step_t point[YB_PAPER_POINTS];
-    int count = yb_simplify_to_lattice(&line, tolerance, &lattice, point, 200);
-    free(place);
-    return count > 0 && yb_simplify_fits(paper, point, count, !chosen->closed) &&
-           yb_paper_append(paper, height, !chosen->closed, point, count) && yb_paper_split(paper);
-}
-
-static double any_tolerance(yb_target_mover_t *mover)
-{
-    const yb_paper_t *paper = mover->paper;
-    double side = paper->east > paper->north ? paper->east : paper->north;
-    return side * (0.012 + 0.03 * yb_target_random(mover));
-}
-
-static bool new_line(yb_target_mover_t *mover)
-{
-    double height_m = any_height_m(mover);
-    return yb_target_add_line(mover, height_m, any_tolerance(mover), true);
-}
-
-static bool other_line(yb_target_mover_t *mover)
-{
-    return drop_line(mover) && new_line(mover);
-}
-
-/* The same line anew, or one near it in height. */
-static bool redraw_line(yb_target_mover_t *mover)
-{
-    yb_paper_t *paper = mover->paper;
-    int line = any_line(mover);
-    if (line < 0)
-        return false;
-    double height_m = yb_target_height_m(paper, paper->contour[line].height);
-    height_m += bell(mover, mover->search->grid->std_m * (0.1 + 0.5 * mover->heat));
-    yb_paper_drop(paper, line);
-    return yb_target_add_line(mover, height_m, any_tolerance(mover), false);
-}
-
-static bool add_spot(yb_target_mover_t *mover)
-{
-    yb_paper_t *paper = mover->paper;
-    const yb_grid_t *grid = mover->search->grid;
-    double east_m = 0;
-    double north_m = 0;
-    yb_judge_worst(mover->search->judge, yb_target_random(mover), &east_m, &north_m);
-    double width_m = yb_grid_width_m(grid);
-    double depth_m = yb_grid_depth_m(grid);
-    int spacing = paper->spacing;
-    int x = (int)lround(east_m / width_m * paper->east / spacing) * spacing;
-    int y = (int)lround(north_m / depth_m * paper->north / spacing) * spacing;
-    if (!is_inner(paper, x, y))
-        return false;
-    yb_step_t at = {(uint8_t)x, (uint8_t)y};
-    uint16_t height = yb_paper_height(paper, yb_grid_height(grid, (double)x / paper->east * width_m,
-                                                            (double)y / paper->north * depth_m));
-    return yb_paper_append(paper, height, false, &at, 1);
-}
-
-static bool drop_spot(yb_target_mover_t *mover)
-{
-    int spot = any_spot(mover);
-    if (spot < 0)
-        return false;
-    yb_paper_drop(mover->paper, spot);
-    return true;
-}
-
-static bool change_spot(yb_target_mover_t *mover)
-{
-    yb_paper_t *paper = mover->paper;
-    int spot = any_spot(mover);
-    if (spot < 0)
-        return false;
-    if (below(mover, 2) == 0) {
-        paper->contour[spot].height = moved_height(mover, paper->contour[spot].height);
-        return true;
-    }
-    int x = random_step(mover);
-    int y = random_step(mover);
-    return shift_point(mover, spot, 0, x, y);
 }
 
 /* Another start or direction, or another place in the order: the surface stays, the size does not.
@@ -371,7 +224,7 @@ static bool change_spot(yb_target_mover_t *mover)
 static bool turn_line(yb_target_mover_t *mover)
 {
     yb_paper_t *paper = mover->paper;
-    int line = any_line(mover);
+    int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
     int count = paper->contour[line].count;
@@ -379,8 +232,8 @@ static bool turn_line(yb_target_mover_t *mover)
     yb_step_t before[YB_PAPER_POINTS];
     memcpy(before, point, (size_t)count * sizeof(*point));
     bool open = paper->contour[line].open;
-    int from = open ? count - 1 : below(mover, count);
-    bool back = open || below(mover, 3) == 0;
+    int from = open ? count - 1 : yb_target_below(mover, count);
+    bool back = open || yb_target_below(mover, 3) == 0;
     for (int i = 0; i < count; i++)
         point[i] = before[(from + (back ? count - i : i)) % count];
     return true;
@@ -388,22 +241,22 @@ static bool turn_line(yb_target_mover_t *mover)
 
 static bool reorder(yb_target_mover_t *mover)
 {
-    int line = any_line(mover);
-    int other = any_line(mover);
+    int line = yb_target_any(mover, false);
+    int other = yb_target_any(mover, false);
     return line > 0 && other > 0 && yb_paper_reorder(mover->paper, line, other);
 }
 
 static bool change_seed(yb_target_mover_t *mover)
 {
     uint8_t before = mover->paper->seed;
-    mover->paper->seed = (uint8_t)below(mover, 128);
+    mover->paper->seed = (uint8_t)yb_target_below(mover, 128);
     return mover->paper->seed != before;
 }
 
 static bool change_gain(yb_target_mover_t *mover)
 {
     uint8_t before = mover->paper->gain;
-    double gain = before * exp2(bell(mover, 0.8));
+    double gain = before * exp2(yb_target_bell(mover, 0.8));
     gain = fmin(fmax(gain, mover->search->least_gain), mover->search->most_gain);
     mover->paper->gain =
         mover->paper->profile == YB_COMPACT ? yb_compact_gain(gain) : (uint8_t)lround(gain);
@@ -415,12 +268,14 @@ bool yb_target_move(yb_target_mover_t *mover)
     static const struct {
         int weight; /* of 1000 */
         move_fn fn;
-    } moves[] = {{250, move_point},  {70, move_segment}, {80, move_two},       {100, change_height},
-                 {80, add_point},    {90, remove_point}, {70, transfer_point}, {25, change_frame},
-                 {5, toggle_corner}, {15, new_line},     {15, drop_line},      {15, other_line},
-                 {40, redraw_line},  {15, add_spot},     {15, drop_spot},      {25, change_spot},
-                 {40, turn_line},    {20, reorder},      {20, change_seed},    {10, change_gain}};
-    int ticket = below(mover, 1000);
+    } moves[] = {{250, move_point},           {70, move_segment},        {80, move_two},
+                 {100, change_height},        {80, add_point},           {90, remove_point},
+                 {70, transfer_point},        {25, change_frame},        {5, toggle_corner},
+                 {15, yb_target_new_line},    {15, yb_target_drop_line}, {15, yb_target_other_line},
+                 {40, yb_target_redraw_line}, {15, yb_target_add_spot},  {15, yb_target_drop_spot},
+                 {25, yb_target_change_spot}, {40, turn_line},           {20, reorder},
+                 {20, change_seed},           {10, change_gain}};
+    int ticket = yb_target_below(mover, 1000);
     int i = 0;
     while (ticket >= moves[i].weight)
         ticket -= moves[i++].weight;

@@ -21,13 +21,13 @@ enum {
 /* The heights of the lines, with the lowest and the highest place of the relief, leave no gap that
  * is a larger share of its range.
  */
-#define YB_TARGET_MOST_GAP 0.45
+#define YB_TARGET_MOST_GAP 0.38
 
 /* Most that a map may be off the relief, smooth, in standard deviations, slopes counted in
  * (judge.h); and most where the drafts do not come as near as that.
  */
-#define YB_TARGET_MOST_OFF 0.30
-#define YB_TARGET_FAR_OFF 0.60
+#define YB_TARGET_MOST_OFF 0.25
+#define YB_TARGET_FAR_OFF 1.0
 
 typedef struct {
     double k;
