@@ -61,7 +61,7 @@ typedef struct {
     const char *input, *output;
     cli_part_t part;
     yb_encode_task_t task;
-    double base_m; /* of a drawn sheet */
+    double base_m;   /* of a drawn sheet */
     double target_k; /* 0: none */
     bool based, force, json, hex, quiet;
 } request_t;
@@ -326,8 +326,8 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
     }
 }
 
-/* The coding itself: as near to the relief as the bytes allow, or up to a similarity. *k stays as it
- * is in the first case.
+/* The coding itself: as near to the relief as the bytes allow, or up to a similarity. *k stays as
+ * it is in the first case.
  */
 static bool code_grid(const request_t *request, const yb_grid_t *grid, yb_encode_result_t *result,
                       double *k, yb_error_t *error)
@@ -366,8 +366,8 @@ static bool encode_raster(const request_t *request, yb_encode_result_t *result, 
     if (!grid->placed && request->part.window.cell_m <= 0 && !request->quiet)
         fprintf(stderr, "%s does not tell the size of its cells: %g m are assumed (--cell)\n",
                 request->input, YB_GRID_DEFAULT_CELL_M);
-    bool good = yb_fractal_of_grid(grid, fractal, error) &&
-                code_grid(request, grid, result, k, error);
+    bool good =
+        yb_fractal_of_grid(grid, fractal, error) && code_grid(request, grid, result, k, error);
     yb_grid_free(grid);
     return good;
 }

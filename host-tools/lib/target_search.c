@@ -78,7 +78,8 @@ bool yb_target_score(const yb_target_search_t *search, const yb_paper_t *paper,
     uint8_t code[YB_PAPER_MOST_BYTES];
     yb_bits_t bits;
     yb_line_score_t lines;
-    size_t room = search->most_bytes + search->most_bytes / 3;
+    size_t room = 2 * search->most_bytes + 100; /* drafts may be far too long */
+    room = room < YB_MAX_CODE_BYTES ? room : YB_MAX_CODE_BYTES;
     *score = (yb_target_score_t){0};
     score->bytes = yb_paper_code(paper, code, room, &bits);
     if (score->bytes == 0)
