@@ -42,8 +42,11 @@ enum {
 static const double first_k_fine = 6000;
 static const double dearer = 4;
 
-/* The gain may be so much weaker than what gives the relief's own roughness. */
+/* The gain may be so much weaker than what gives the relief's own roughness; or than what contours
+ * suggest, where lines are all there is to go by.
+ */
 static const double weakest_gain = 0.7;
+static const double weakest_of_lines = 0.25;
 
 typedef struct {
     yb_paper_t paper;
@@ -170,7 +173,7 @@ static int by_cost(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* The gain that makes the map as rough as the relief; lines say nothing about it. */
+/* The gain that makes the map as rough as the relief. */
 static void fit_gain(loop_t *loop, draft_t *draft, yb_target_search_t *search)
 {
     bool compact = draft->paper.profile == YB_COMPACT;
@@ -178,7 +181,8 @@ static void fit_gain(loop_t *loop, draft_t *draft, yb_target_search_t *search)
     if (loop->given == NULL)
         yb_fractal_gain(&draft->paper, loop->grid);
     double gain = draft->paper.gain;
-    search->least_gain = (uint8_t)fmax(gain * weakest_gain, 1);
+    double weakest = loop->given != NULL ? weakest_of_lines : weakest_gain;
+    search->least_gain = (uint8_t)fmax(gain * weakest, 1);
     search->most_gain = (uint8_t)fmax(gain, 1);
     draft->paper.gain = compact ? yb_compact_gain(gain) : search->most_gain;
     if (draft->paper.gain == 0)
