@@ -224,25 +224,31 @@ static void search_drafts(loop_t *loop)
     qsort(loop->draft, BETTER, sizeof(draft_t), by_cost);
 }
 
+/* Where K is dearer, the steps that the search must get over are higher. */
+static void set_heat(yb_target_search_t *search, double hot, double cold)
+{
+    double height = sqrt(search->k_fine / first_k_fine);
+    search->hot = hot * height;
+    search->cold = cold * height;
+}
+
 /* All that is left on the best, in the end on what evaluate measures. */
 static void search_best(loop_t *loop, draft_t *best)
 {
     yb_target_search_t search = search_of(loop, best, 1001);
     fit_gain(loop, best, &search);
     search.k_fine *= best->score.k < loop->k ? dearer : 1;
-    search.hot = 20;
-    search.cold = 3;
+    set_heat(&search, 20, 3);
     improve(loop, best, &search, scaled(loop, ON_BEST));
     /* Land that so few bytes cannot hold is not held to what a single mountain allows. */
-    search.most_off = fmin(fmax(1.05 * best->score.off, YB_TARGET_MOST_OFF), YB_TARGET_FAR_OFF);
+    search.most_off = fmax(1.05 * best->score.off, YB_TARGET_MOST_OFF);
     search.longest_q8 = YB_REFERENCE_Q8;
     search.kept = &loop->kept;
     for (int round = 0; round < MOST_ROUNDS && loop->kept.count == 0; round++) {
         fit_gain(loop, best, &search);
         search.k_fine *= best->score.k < loop->k ? dearer : 1;
         search.seed++;
-        search.hot = 12;
-        search.cold = 1;
+        set_heat(&search, 12, 1);
         improve(loop, best, &search, scaled(loop, ON_FINE));
     }
 }
@@ -279,12 +285,8 @@ static double exact_k(const loop_t *loop, const yb_code_file_t *file)
 
 static bool tell_failure(const loop_t *loop, yb_error_t *error)
 {
-    const yb_target_score_t *score = &loop->kept.nearest_score;
-    if (score->bytes == 0)
-        return yb_error_set(error,
-                            "no code of %zu bytes with lines of %d heights comes near the relief: "
-                            "allow more bytes by --bytes",
-                            loop->task->most_bytes, YB_TARGET_LEVELS);
+    if (loop->kept.nearest_score.bytes == 0)
+        return yb_error_set(error, "no code of this relief could be measured");
     yb_code_file_t *file = yb_paper_check(&loop->kept.nearest, error);
     if (file == NULL)
         return false;

@@ -104,16 +104,29 @@ bool yb_target_sound(const yb_target_search_t *search, const yb_target_score_t *
            (search->levels > 0 || score->gap <= YB_TARGET_MOST_GAP);
 }
 
+/* How much a code is worth telling of that does not reach the target: 2 if it is short and sound
+ * enough, 1 if it is short enough.
+ */
+static int worth(const yb_target_search_t *search, const yb_target_score_t *score)
+{
+    return score->bytes > search->most_bytes ? 0 : yb_target_sound(search, score) ? 2 : 1;
+}
+
 static void keep(const yb_target_search_t *search, const yb_paper_t *paper,
                  const yb_target_score_t *score)
 {
     yb_target_kept_t *kept = search->kept;
-    if (kept == NULL || score->bytes > search->most_bytes || !yb_target_sound(search, score))
+    if (kept == NULL)
         return;
-    if (kept->nearest_score.bytes == 0 || score->k > kept->nearest_score.k) {
+    int better = kept->nearest_score.bytes == 0
+                     ? 1
+                     : worth(search, score) - worth(search, &kept->nearest_score);
+    if (better > 0 || (better == 0 && score->k > kept->nearest_score.k)) {
         kept->nearest = *paper;
         kept->nearest_score = *score;
     }
+    if (worth(search, score) < 2)
+        return;
     if (score->k < search->k + k_margin / 2)
         return;
     int at = 0;

@@ -24,10 +24,9 @@ enum {
 #define YB_TARGET_MOST_GAP 0.38
 
 /* Most that a map may be off the relief, smooth, in standard deviations, slopes counted in
- * (judge.h); and most where the drafts do not come as near as that.
+ * (judge.h); unless the search does not come as near as that.
  */
 #define YB_TARGET_MOST_OFF 0.25
-#define YB_TARGET_FAR_OFF 1.0
 
 typedef struct {
     double k;
@@ -45,7 +44,7 @@ enum {
 };
 
 /* The shortest codes that reach the target, one of each size, shortest first; and the code that
- * comes nearest to it within the bytes allowed.
+ * comes nearest to it, within the bytes allowed if there is one.
  */
 typedef struct {
     yb_paper_t paper[YB_TARGET_KEPT];
