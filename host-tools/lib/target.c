@@ -42,6 +42,9 @@ enum {
 static const double first_k_fine = 6000;
 static const double dearer = 4;
 
+/* A first search that stays so far off the relief has met land of many ridges. */
+static const double far_off = 0.4;
+
 /* The gain may be so much weaker than what gives the relief's own roughness; or than what contours
  * suggest, where lines are all there is to go by.
  */
@@ -238,9 +241,10 @@ static void search_best(loop_t *loop, draft_t *best)
     yb_target_search_t search = search_of(loop, best, 1001);
     fit_gain(loop, best, &search);
     search.k_fine *= best->score.k < loop->k ? dearer : 1;
+    /* Land that such lines cannot hold is not held to what a single mountain allows. */
+    search.most_off = best->score.off > far_off ? best->score.off : YB_TARGET_MOST_OFF;
     set_heat(&search, 20, 3);
     improve(loop, best, &search, scaled(loop, ON_BEST));
-    /* Land that so few bytes cannot hold is not held to what a single mountain allows. */
     search.most_off = fmax(1.05 * best->score.off, YB_TARGET_MOST_OFF);
     search.longest_q8 = YB_REFERENCE_Q8;
     search.kept = &loop->kept;
