@@ -19,6 +19,7 @@
 #include "paper_code.h"
 #include "part.h"
 #include "scan.h"
+#include "target.h"
 
 enum {
     OPTION_BYTES = 256,
@@ -31,6 +32,7 @@ enum {
     OPTION_NAME,
     OPTION_PLACE,
     OPTION_CERTIFY,
+    OPTION_TARGET_K,
     OPTION_FORCE,
     OPTION_JSON,
     OPTION_HEX,
@@ -55,6 +57,7 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"name", required_argument, NULL, OPTION_NAME},
                                         {"place", no_argument, NULL, OPTION_PLACE},
                                         {"certify", no_argument, NULL, OPTION_CERTIFY},
+                                        {"target-k", required_argument, NULL, OPTION_TARGET_K},
                                         {"force", no_argument, NULL, OPTION_FORCE},
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"hex", no_argument, NULL, OPTION_HEX},
@@ -67,7 +70,8 @@ typedef struct {
     cli_part_t part;
     yb_encode_task_t task;
     yb_sections_t sections;
-    double base_m; /* of a drawn sheet */
+    double base_m;   /* of a drawn sheet */
+    double target_k; /* 0: none */
     bool based, force, json, hex, quiet;
 } request_t;
 
@@ -108,6 +112,8 @@ static int help(void)
           "  --seed N              of the fractal detail, 0 to 255 (default 1)\n",
           stdout);
     fputs("\n"
+          "  --target-k K          the smallest code, of at most --bytes, whose similarity K (see\n"
+          "                        yamabiko evaluate) is K or more, above 0 to 1; a minute\n"
           "What the code says beside the relief (profile compact; it counts into --bytes):\n"
           "  --name TEXT           the map's name, up to 63 bytes of UTF-8\n"
           "  --place               where on earth its centre lies, to about 2 m: 7 bytes\n"
@@ -139,8 +145,13 @@ static int help(void)
           "fractal detail; NRMSE is the same in standard deviations of the relief. The dimension\n"
           "is that of all contour lines of a level together, measured by counting boxes.\n"
           "\n"
+          "With --target-k lines are few and follow the real ones; their similarity counts with\n"
+          "the fractal detail on, whose seed is the search's choice. If no code found reaches\n"
+          "it, nothing is written and the exit code is 1.\n"
+          "\n"
           "Examples:\n"
           "  yamabiko encode fuji.tif -o fuji.yb\n"
+          "  yamabiko encode fuji.tif -o fuji.yb --target-k 0.8\n"
           "  yamabiko encode N46E009.hgt --center 9.8 46.82 --km 15 -o davos.yb --bytes 200\n"
           "  yamabiko encode contours.gpkg --field hoehe -o hill.yb\n"
           "  yamabiko encode sheet.png --base 100 --interval 20 --cell 2.5 -o hill.yb\n",
@@ -184,6 +195,11 @@ static int take_coding(request_t *request, int answer)
         request->based = true;
         if (!cli_number(optarg, &request->base_m))
             return cli_usage("--base needs a number of metres");
+        return CLI_OK;
+    case OPTION_TARGET_K:
+        if (!cli_number(optarg, &request->target_k) || request->target_k <= 0 ||
+            request->target_k > 1)
+            return cli_usage("--target-k needs a number above 0, at most 1");
         return CLI_OK;
     case OPTION_SEED:
         status = take_integer("--seed", 0, UINT8_MAX, &value);
@@ -239,6 +255,7 @@ static int take_option(request_t *request, int answer, int argc, char **argv)
     case OPTION_BASE:
     case OPTION_SEED:
     case OPTION_EFFORT:
+    case OPTION_TARGET_K:
         return take_coding(request, answer);
     default:
         return cli_bad_option(answer, argc, argv);
@@ -279,7 +296,7 @@ static void hex_of(const yb_code_file_t *code, char *text)
         snprintf(text + 2 * i, 3, "%02x", code->bytes[i]);
 }
 
-static void tell_json(const request_t *request, const yb_encode_result_t *result,
+static void tell_json(const request_t *request, const yb_encode_result_t *result, double k,
                       const yb_fractal_report_t *fractal)
 {
     const yb_code_file_t *code = result->code;
@@ -297,6 +314,8 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
     json_object_set_new(root, "line_heights_m", json_levels(code));
     json_object_set_new(root, "rmse_m", json_real(result->rmse_m));
     json_object_set_new(root, "nrmse", json_real(result->rmse_m / result->std_m));
+    if (request->target_k > 0)
+        json_object_set_new(root, "k", json_real(k));
     json_object_set_new(root, "dimension", json_real(result->dimension));
     json_object_set_new(root, "fractal", yb_fractal_json(fractal));
     json_object_set_new(root, "trials", json_integer(result->trials));
@@ -311,7 +330,7 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
 }
 
 /* In words; not on the standard output if the code goes there. */
-static void tell_text(const request_t *request, const yb_encode_result_t *result,
+static void tell_text(const request_t *request, const yb_encode_result_t *result, double k,
                       const yb_fractal_report_t *fractal)
 {
     FILE *to = strcmp(request->output, "-") == 0 ? stderr : stdout;
@@ -326,6 +345,8 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
             12 * points + 20 * code->load.contour_count + 8);
     fprintf(to, "RMSE %.1f m, NRMSE %.3f (without detail)\n", result->rmse_m,
             result->rmse_m / result->std_m);
+    if (request->target_k > 0)
+        fprintf(to, "K %.4f (with detail)\n", k);
     if (code->sections.certified)
         fprintf(to, "certified: nine tenths of the heights within %u m, K %.2f\n",
                 yb_certified_error_m(code->map.certified_error), code->map.certified_k / 255.0);
@@ -354,7 +375,35 @@ static bool find_place(request_t *request, const char *projection, double x, dou
                         request->input);
 }
 
-static bool encode_raster(request_t *request, yb_encode_result_t *result,
+/* The coding itself: as near to the relief as the bytes allow, or up to a similarity. *k stays as
+ * it is in the first case.
+ */
+static bool code_grid(const request_t *request, const yb_grid_t *grid, yb_encode_result_t *result,
+                      double *k, yb_error_t *error)
+{
+    yb_target_result_t found;
+    if (request->target_k <= 0)
+        return yb_encode_grid(grid, &request->task, result, error);
+    bool good = yb_target_grid(grid, &request->task, request->target_k, &found, error);
+    *result = found.encoded;
+    *k = found.k;
+    return good;
+}
+
+static bool code_lines(const request_t *request, const yb_lines_t *lines,
+                       const yb_encode_task_t *task, yb_encode_result_t *result, double *k,
+                       yb_error_t *error)
+{
+    yb_target_result_t found;
+    if (request->target_k <= 0)
+        return yb_encode_lines(lines, task, result, error);
+    bool good = yb_target_lines(lines, task, request->target_k, &found, error);
+    *result = found.encoded;
+    *k = found.k;
+    return good;
+}
+
+static bool encode_raster(request_t *request, yb_encode_result_t *result, double *k,
                           yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_grid_t *grid = yb_grid_read(request->input, &request->part.window, GRID_SIDE, error);
@@ -370,12 +419,12 @@ static bool encode_raster(request_t *request, yb_encode_result_t *result,
     double y = grid->transform[3] + grid->rows * grid->transform[5] / 2;
     bool good = find_place(request, grid->projection, x, y, error) &&
                 yb_fractal_of_grid(grid, fractal, error) &&
-                yb_encode_grid(grid, &request->task, result, error);
+                code_grid(request, grid, result, k, error);
     yb_grid_free(grid);
     return good;
 }
 
-static bool encode_vector(request_t *request, yb_encode_result_t *result,
+static bool encode_vector(request_t *request, yb_encode_result_t *result, double *k,
                           yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_lines_t *lines =
@@ -390,12 +439,12 @@ static bool encode_vector(request_t *request, yb_encode_result_t *result,
                 find_place(request, origin->projection, origin->west_m + lines->width_m / 2,
                            origin->south_m + lines->depth_m / 2, error) &&
                 yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
-                yb_encode_lines(lines, &request->task, result, error);
+                code_lines(request, lines, &request->task, result, k, error);
     yb_lines_free(lines);
     return good;
 }
 
-static bool encode_scan(request_t *request, yb_encode_result_t *result,
+static bool encode_scan(request_t *request, yb_encode_result_t *result, double *k,
                         yb_fractal_report_t *fractal, yb_error_t *error)
 {
     yb_scan_scale_t scale = {request->base_m, request->task.interval_m,
@@ -410,7 +459,7 @@ static bool encode_scan(request_t *request, yb_encode_result_t *result,
     task.interval_m = 0; /* all lines stay at the heights they were given */
     bool good = find_place(request, NULL, 0, 0, error) &&
                 yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
-                yb_encode_lines(lines, &task, result, error);
+                code_lines(request, lines, &task, result, k, error);
     yb_lines_free(lines);
     return good;
 }
@@ -448,9 +497,10 @@ static int run(request_t *request)
         return cli_fail("%s", error.text);
     bool vector = request->part.field != NULL || (!scan && yb_lines_is_vector(request->input));
     yb_fractal_report_t fractal = {0};
-    bool good = scan     ? encode_scan(request, &result, &fractal, &error)
-                : vector ? encode_vector(request, &result, &fractal, &error)
-                         : encode_raster(request, &result, &fractal, &error);
+    double k = 0;
+    bool good = scan     ? encode_scan(request, &result, &k, &fractal, &error)
+                : vector ? encode_vector(request, &result, &k, &fractal, &error)
+                         : encode_raster(request, &result, &k, &fractal, &error);
     if (good && request->task.progress != NULL)
         request->task.progress(NULL, 1);
     if (!good) {
@@ -460,9 +510,9 @@ static int run(request_t *request)
     good = yb_output_write(request->output, request->force, result.code->bytes, result.code->size,
                            &error);
     if (good && request->json)
-        tell_json(request, &result, &fractal);
+        tell_json(request, &result, k, &fractal);
     else if (good && !request->quiet)
-        tell_text(request, &result, &fractal);
+        tell_text(request, &result, k, &fractal);
     yb_fractal_free(&fractal);
     yb_code_file_free(result.code);
     return good ? CLI_OK : cli_fail("%s", error.text);

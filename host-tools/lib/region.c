@@ -7,7 +7,7 @@
 enum {
     FRAME_CORNERS = 4,
     SIDE_PARTS = 256,
-    FRAME_POINTS = 4 * SIDE_PARTS + 8 /* the most that a part of the frame can have */
+    FRAME_POINTS = YB_REGION_FRAME_POINTS
 };
 
 /* Areas below this share of the frame are no regions. */
@@ -58,11 +58,8 @@ static yb_point2_t frame_point(double along, double east, double north)
     return (yb_point2_t){0, fmax(north - (along - east - north - east), 0)};
 }
 
-/* Points of the frame between two of its points, counter-clockwise: the corners, and between them
- * as many as it takes to come from one to the next in small steps. Without the two points.
- */
-static size_t frame_points(yb_point2_t from, yb_point2_t to, double east, double north,
-                           yb_point2_t *point)
+size_t yb_region_frame_points(yb_point2_t from, yb_point2_t to, double east, double north,
+                              yb_point2_t *point)
 {
     const double corner[FRAME_CORNERS] = {east, east + north, east + north + east,
                                           2 * (east + north)};
@@ -131,8 +128,8 @@ static bool make_region(GEOSContextHandle_t geos, yb_region_t *region, const yb_
     for (size_t i = 0; i < line->count; i++)
         region->point[i] = line->point[turned ? line->count - 1 - i : i];
     if (!region->closed)
-        region->boundary += frame_points(region->point[line->count - 1], region->point[0], east,
-                                         north, region->point + line->count);
+        region->boundary += yb_region_frame_points(region->point[line->count - 1], region->point[0],
+                                                   east, north, region->point + line->count);
     if (region->boundary >= 3)
         region->shape = make_shape(geos, region->point, region->boundary);
     if (region->shape != NULL && GEOSArea_r(geos, region->shape, &region->area) == 1 &&

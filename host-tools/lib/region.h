@@ -29,6 +29,17 @@ GEOSContextHandle_t yb_region_geos(void);
 int yb_region_make(GEOSContextHandle_t geos, yb_region_t regions[2], const yb_isoline_t *line,
                    double east, double north);
 
+enum {
+    YB_REGION_FRAME_POINTS = 4 * 256 + 8 /* the most that a part of the frame can have */
+};
+
+/* Points of the frame between two of its points, counter-clockwise: the corners, and between them
+ * as many as it takes to come from one to the next in small steps. Without the two points. Answers
+ * how many; `point` has room for YB_REGION_FRAME_POINTS.
+ */
+size_t yb_region_frame_points(yb_point2_t from, yb_point2_t to, double east, double north,
+                              yb_point2_t *point);
+
 /* A region of zeros is left alone. */
 void yb_region_free(GEOSContextHandle_t geos, yb_region_t *region);
 

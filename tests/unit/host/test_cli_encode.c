@@ -77,6 +77,8 @@ static void test_bad_usage(void **state)
     expect_failure(dem, "--levels 3 --interval 100", 2, "exclude each other");
     expect_failure(dem, "--effort 10", 2, "from 1 to 9");
     expect_failure(dem, "--seed 256", 2, "from 0 to 255");
+    expect_failure(dem, "--target-k 1.5", 2, "above 0, at most 1");
+    expect_failure(dem, "--target-k alike", 2, "above 0, at most 1");
     expect_failure(dem, "--window 1 2 3", 2, "four numbers");
     expect_failure(dem, "--window 5 0 1 1", 2, "is empty");
     expect_failure(dem, "--center 200 0", 2, "longitude");
@@ -342,6 +344,30 @@ static int begin(void **state)
     return status;
 }
 
+/* A similarity as the target: told if it is reached, else nothing is written. */
+static void test_target_k(void **state)
+{
+    (void)state;
+    const char *dem = scratch_path("small.tif");
+    scratch_raster(dem, 32, 32, relief_range);
+    expect_failure(dem, "--target-k 0.99 --bytes 30", 1, "--bytes");
+    assert_int_equal(encode(dem, "--target-k 0.7 --json"), 0);
+    json_t *made = json_loads(said, 0, NULL);
+    assert_non_null(made);
+    double k = json_number_value(json_object_get(made, "k"));
+    assert_true(k >= 0.7);
+    assert_true(json_integer_value(json_object_get(made, "bytes")) <= 100);
+    json_decref(made);
+    char arguments[1024];
+    snprintf(arguments, sizeof(arguments), "evaluate %s %s --json", scratch_path("out.yb"), dem);
+    assert_int_equal(run(arguments), 0);
+    made = json_loads(said, 0, NULL);
+    assert_non_null(made);
+    assert_true(fabs(json_number_value(json_object_get(made, "k")) - k) < 1e-5);
+    json_decref(made);
+    remove(scratch_path("out.yb"));
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2)
@@ -350,8 +376,9 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_usage),      cmocka_unit_test(test_bad_inputs),
         cmocka_unit_test(test_output_is_kept), cmocka_unit_test(test_info_adds_up),
-        cmocka_unit_test(test_bad_lines),      cmocka_unit_test(test_sections),
-        cmocka_unit_test(test_pipes),          cmocka_unit_test(test_drawn_sheets),
+        cmocka_unit_test(test_target_k),       cmocka_unit_test(test_bad_lines),
+        cmocka_unit_test(test_sections),       cmocka_unit_test(test_pipes),
+        cmocka_unit_test(test_drawn_sheets),
     };
     return cmocka_run_group_tests(tests, begin, scratch_end);
 }

@@ -1,0 +1,120 @@
+#include "target_draft.h"
+
+#include <math.h>
+
+#include "compact_code.h"
+#include "fractal.h"
+#include "sketch.h"
+#include "target_moves.h"
+
+enum {
+    START_GAIN = 16,
+    MOST_SPACING = 16,
+    MOST_STEPS = 255
+};
+
+/* A frame may be so much wider or narrower than the relief. */
+static const double most_bent = 0.006;
+
+/* Of the lines, as a share of the frame's longer side. */
+static const double tolerance = 0.025;
+
+int yb_target_draft_spacing(const yb_target_draft_t *draft, int wanted)
+{
+    double longest_m = fmax(yb_grid_width_m(draft->grid), yb_grid_depth_m(draft->grid));
+    double shortest_m = fmin(yb_grid_width_m(draft->grid), yb_grid_depth_m(draft->grid));
+    bool paper = draft->profile == YB_PAPER;
+    int best = wanted;
+    double least = HUGE_VAL;
+    for (int i = 0; i <= 2 * MOST_SPACING; i++) {
+        int spacing = wanted + (i % 2 == 0 ? -i / 2 : i / 2 + 1); /* wanted, + 1, - 1, + 2 … */
+        if (spacing < 1 || spacing > MOST_SPACING || (paper && (8 % spacing) != 0))
+            continue;
+        double steps = shortest_m / longest_m * (MOST_STEPS / spacing);
+        double bent = fabs(round(steps) / steps - 1);
+        if (bent < least) {
+            least = bent;
+            best = spacing;
+        }
+        if (bent < most_bent)
+            return spacing;
+    }
+    return best;
+}
+
+/* Units of height between an eighth and a fifteenth of the standard deviation (and at most half the
+ * least distance of given levels): the one that hits the summit best.
+ */
+static uint16_t choose_unit(const yb_target_draft_t *draft)
+{
+    double most_m = draft->grid->std_m / 8;
+    for (int i = 1; i < draft->levels; i++)
+        most_m = fmin(most_m, (draft->level_m[i] - draft->level_m[i - 1]) / 2);
+    uint16_t best = yb_compact_unit(most_m);
+    double least = HUGE_VAL;
+    double high_m = (double)draft->grid->high_m;
+    for (int i = 0; i <= 32; i++) {
+        uint16_t unit = yb_compact_unit(most_m / (1 + i / 32.0));
+        double unit_m = yb_paper_metres(unit);
+        double off_m = fabs(high_m - round(high_m / unit_m) * unit_m);
+        if (off_m < least - 1e-9) {
+            least = off_m;
+            best = unit;
+        }
+    }
+    return best;
+}
+
+bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_paper_t *paper, int spacing)
+{
+    const yb_grid_t *grid = draft->grid;
+    double width_m = yb_grid_width_m(grid);
+    double depth_m = yb_grid_depth_m(grid);
+    yb_sketch_begin(paper, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
+    paper->seed = draft->seed & 127;
+    paper->profile = draft->profile;
+    paper->gain = START_GAIN;
+    paper->dimension = yb_fractal_coded(draft->dimension);
+    if (paper->profile == YB_COMPACT) {
+        paper->cell = yb_compact_cell(fmax(width_m / paper->east, depth_m / paper->north));
+        paper->unit = choose_unit(draft);
+        paper->base = (int)floor((double)grid->low_m / yb_paper_metres(paper->unit)) - 20;
+        paper->vertex_class = 7;
+        paper->gain = yb_compact_gain(START_GAIN);
+        paper->dimension = yb_compact_dimension(paper->dimension);
+    }
+    const double corner_m[YB_CORNERS][2] = {{0, 0}, {width_m, 0}, {width_m, depth_m}, {0, depth_m}};
+    double sum = 0;
+    for (int i = 0; i < YB_CORNERS; i++) {
+        double height_m = yb_grid_height(grid, corner_m[i][0], corner_m[i][1]);
+        paper->corner[i] = yb_paper_height(paper, height_m);
+        sum += height_m;
+    }
+    paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
+    paper->corners = 0xf;
+    yb_lines_t frame = {.width_m = width_m, .depth_m = depth_m};
+    return yb_sketch_spot(paper, &frame, yb_sketch_summit(grid), (double)grid->high_m,
+                          YB_PAPER_MOST_BYTES);
+}
+
+/* The heights: even steps of height and of area, half and half. */
+void yb_target_draft_lines(const yb_target_search_t *search, yb_paper_t *paper, int count)
+{
+    yb_target_mover_t mover = {.search = search, .paper = paper};
+    double low_m = (double)search->grid->low_m;
+    double high_m = (double)search->grid->high_m;
+    double side = fmax(paper->east, paper->north);
+    for (int i = 0; i < count; i++) {
+        double share = (i + 0.5) / count;
+        double height_m =
+            (yb_sketch_quantile(search->grid, share) + low_m + (high_m - low_m) * share) / 2;
+        if (search->levels > 0)
+            height_m = search->level_m[(int)(share * search->levels)];
+        yb_paper_t before = *paper;
+        for (double finer = 1; finer > 0.2; finer /= 2) {
+            if (yb_target_add_line(&mover, height_m, finer * tolerance * side, false))
+                break;
+            *paper = before;
+        }
+    }
+}

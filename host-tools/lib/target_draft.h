@@ -1,0 +1,25 @@
+/* Where the search for a similarity begins: a lattice, units, the summit and a few lines. */
+#ifndef YB_TARGET_DRAFT_H
+#define YB_TARGET_DRAFT_H
+
+#include "target_search.h"
+
+typedef struct {
+    const yb_grid_t *grid;
+    yb_profile_t profile;
+    uint8_t seed;
+    double dimension;
+    const double *level_m; /* heights that lines must have, rising */
+    int levels;            /* and how many; 0: any height */
+} yb_target_draft_t;
+
+/* The spacing nearest to the wanted one on which the frame keeps its shape. */
+int yb_target_draft_spacing(const yb_target_draft_t *draft, int wanted);
+
+/* A code with the summit alone. False: there is no place for it. */
+bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_paper_t *paper, int spacing);
+
+/* Adds the longest lines at so many heights, as far as they fit beside each other. */
+void yb_target_draft_lines(const yb_target_search_t *search, yb_paper_t *paper, int count);
+
+#endif

@@ -1,0 +1,130 @@
+#include "target_shapes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "simplify.h"
+
+static double any_height_m(yb_target_mover_t *mover)
+{
+    const yb_grid_t *grid = mover->search->grid;
+    double share = 0.05 + 0.85 * yb_target_random(mover);
+    return (double)grid->low_m + share * (double)(grid->high_m - grid->low_m);
+}
+
+bool yb_target_drop_line(yb_target_mover_t *mover)
+{
+    int line = yb_target_any(mover, false);
+    if (line < 0)
+        return false;
+    yb_paper_drop(mover->paper, line);
+    return true;
+}
+
+bool yb_target_add_line(yb_target_mover_t *mover, double height_m, double tolerance, bool random)
+{
+    yb_paper_t *paper = mover->paper;
+    uint16_t height = yb_target_allowed(mover, height_m);
+    yb_line_level_t level = yb_line_judge_level(
+        mover->search->lines, yb_target_height_m(paper, height), yb_paper_metres(paper->unit));
+    double longest = 0;
+    const yb_outline_t *chosen = NULL;
+    for (int i = 0; i < level.count; i++) {
+        double length = level.outline[i].length;
+        length *= random ? yb_target_random(mover) : 1;
+        if (length > longest) {
+            longest = length;
+            chosen = &level.outline[i];
+        }
+    }
+    yb_place_t *place = chosen != NULL ? malloc(chosen->count * sizeof(*place)) : NULL;
+    if (place == NULL)
+        return false;
+    for (size_t i = 0; i < chosen->count; i++)
+        place[i] = (yb_place_t){chosen->point[i].x, chosen->point[i].y};
+    yb_line_t line = {.closed = chosen->closed, .count = (int)chosen->count, .place = place};
+    yb_lattice_t lattice = {.width_m = paper->east,
+                            .depth_m = paper->north,
+                            .east = paper->east,
+                            .north = paper->north,
+                            .spacing = paper->spacing};
+    yb_step_t point[YB_PAPER_POINTS];
+    int count = yb_simplify_to_lattice(&line, tolerance, &lattice, point, 200);
+    free(place);
+    return count > 0 && yb_simplify_fits(paper, point, count, !chosen->closed) &&
+           yb_paper_append(paper, height, !chosen->closed, point, count) && yb_paper_split(paper);
+}
+
+static double any_tolerance(yb_target_mover_t *mover)
+{
+    const yb_paper_t *paper = mover->paper;
+    double side = paper->east > paper->north ? paper->east : paper->north;
+    return side * (0.012 + 0.03 * yb_target_random(mover));
+}
+
+bool yb_target_new_line(yb_target_mover_t *mover)
+{
+    double height_m = any_height_m(mover);
+    return yb_target_add_line(mover, height_m, any_tolerance(mover), true);
+}
+
+bool yb_target_other_line(yb_target_mover_t *mover)
+{
+    return yb_target_drop_line(mover) && yb_target_new_line(mover);
+}
+
+bool yb_target_redraw_line(yb_target_mover_t *mover)
+{
+    yb_paper_t *paper = mover->paper;
+    int line = yb_target_any(mover, false);
+    if (line < 0)
+        return false;
+    double height_m = yb_target_height_m(paper, paper->contour[line].height);
+    height_m += yb_target_bell(mover, mover->search->grid->std_m * (0.1 + 0.5 * mover->heat));
+    yb_paper_drop(paper, line);
+    return yb_target_add_line(mover, height_m, any_tolerance(mover), false);
+}
+
+bool yb_target_add_spot(yb_target_mover_t *mover)
+{
+    yb_paper_t *paper = mover->paper;
+    const yb_grid_t *grid = mover->search->grid;
+    double east_m = 0;
+    double north_m = 0;
+    yb_judge_worst(mover->search->judge, yb_target_random(mover), &east_m, &north_m);
+    double width_m = yb_grid_width_m(grid);
+    double depth_m = yb_grid_depth_m(grid);
+    int spacing = paper->spacing;
+    int x = (int)lround(east_m / width_m * paper->east / spacing) * spacing;
+    int y = (int)lround(north_m / depth_m * paper->north / spacing) * spacing;
+    if (!yb_target_is_inner(paper, x, y))
+        return false;
+    yb_step_t at = {(uint8_t)x, (uint8_t)y};
+    uint16_t height = yb_paper_height(paper, yb_grid_height(grid, (double)x / paper->east * width_m,
+                                                            (double)y / paper->north * depth_m));
+    return yb_paper_append(paper, height, false, &at, 1);
+}
+
+bool yb_target_drop_spot(yb_target_mover_t *mover)
+{
+    int spot = yb_target_any(mover, true);
+    if (spot < 0)
+        return false;
+    yb_paper_drop(mover->paper, spot);
+    return true;
+}
+
+bool yb_target_change_spot(yb_target_mover_t *mover)
+{
+    yb_paper_t *paper = mover->paper;
+    int spot = yb_target_any(mover, true);
+    if (spot < 0)
+        return false;
+    if (yb_target_below(mover, 2) == 0) {
+        paper->contour[spot].height = yb_target_moved(mover, paper->contour[spot].height);
+        return true;
+    }
+    int x = yb_target_step(mover);
+    int y = yb_target_step(mover);
+    return yb_target_shift(mover, spot, 0, x, y);
+}
