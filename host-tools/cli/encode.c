@@ -33,6 +33,7 @@ enum {
     OPTION_PLACE,
     OPTION_CERTIFY,
     OPTION_TARGET_K,
+    OPTION_VERTICES,
     OPTION_FORCE,
     OPTION_JSON,
     OPTION_HEX,
@@ -58,6 +59,7 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"place", no_argument, NULL, OPTION_PLACE},
                                         {"certify", no_argument, NULL, OPTION_CERTIFY},
                                         {"target-k", required_argument, NULL, OPTION_TARGET_K},
+                                        {"vertices", required_argument, NULL, OPTION_VERTICES},
                                         {"force", no_argument, NULL, OPTION_FORCE},
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"hex", no_argument, NULL, OPTION_HEX},
@@ -89,7 +91,13 @@ static int help(void)
           "\n"
           "  -o, --output FILE     the code; - is the standard output\n"
           "  --bytes N             most bytes of the whole file, 23 to 1299 (default 100)\n"
-          "  --profile NAME        how it is coded: paper (the only one of this version)\n",
+          "  --target-k K          the smallest code, of at most --bytes, whose similarity K (see\n"
+          "                        yamabiko evaluate) is K or more, above 0 to 1; a minute\n"
+          "  --profile NAME        how it is coded: compact, or paper, as in the paper of 1985, "
+          "with\n"
+          "                        about twice the bytes (default compact)\n"
+          "  --vertices N          most vertices of the mesh, 32 to 4096; more than 255 is beyond\n"
+          "                        most devices (default 255)\n",
           stdout);
     fputs("\n"
           "Which part of the input:\n"
@@ -109,11 +117,9 @@ static int help(void)
           "  --base METRES         height of the outermost lines of a sheet\n"
           "  --field NAME          the attribute of a vector file that is the height (default:\n"
           "                        one that sounds like it, or else the z coordinate)\n"
-          "  --seed N              of the fractal detail, 0 to 255 (default 1)\n",
+          "  --seed N              of the fractal detail, 0 to 127 (default 1)\n",
           stdout);
     fputs("\n"
-          "  --target-k K          the smallest code, of at most --bytes, whose similarity K (see\n"
-          "                        yamabiko evaluate) is K or more, above 0 to 1; a minute\n"
           "What the code says beside the relief (profile compact; it counts into --bytes):\n"
           "  --name TEXT           the map's name, up to 63 bytes of UTF-8\n"
           "  --place               where on earth its centre lies, to about 2 m: 7 bytes\n"
@@ -121,7 +127,7 @@ static int help(void)
           "                        as yamabiko evaluate finds them: 3 bytes\n",
           stdout);
     fputs("\n"
-          "  --effort 1..9         each step doubles the trials (default 5: some seconds)\n"
+          "  --effort 1..9         each step doubles the trials (default 5: about half a minute)\n"
           "  --force               overwrite what exists\n"
           "  --json                tell the results as JSON on the standard output\n"
           "  --hex                 tell the bytes, too\n"
@@ -202,8 +208,12 @@ static int take_coding(request_t *request, int answer)
             return cli_usage("--target-k needs a number above 0, at most 1");
         return CLI_OK;
     case OPTION_SEED:
-        status = take_integer("--seed", 0, UINT8_MAX, &value);
+        status = take_integer("--seed", 0, 127, &value);
         request->task.seed = (uint8_t)value;
+        return status;
+    case OPTION_VERTICES:
+        status = take_integer("--vertices", 32, 4096, &value);
+        request->task.vertices = (int)value;
         return status;
     default:
         status = take_integer("--effort", 1, YB_ENCODE_MOST_EFFORT, &value);
@@ -256,6 +266,7 @@ static int take_option(request_t *request, int answer, int argc, char **argv)
     case OPTION_SEED:
     case OPTION_EFFORT:
     case OPTION_TARGET_K:
+    case OPTION_VERTICES:
         return take_coding(request, answer);
     default:
         return cli_bad_option(answer, argc, argv);

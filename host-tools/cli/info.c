@@ -9,6 +9,7 @@
 #include <jansson.h>
 
 #include "code_file.h"
+#include "compact_code.h"
 #include "paper_code.h"
 #include "part.h"
 
@@ -23,12 +24,20 @@ static const struct option options[] = {{"json", no_argument, NULL, OPTION_JSON}
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
 
-/* Where the bits of a code went; they add up to its size. Of the compact profile, relief, sections
- * and check.
+/* Where the bits of a code went; they add up to its size. Those of the compact profile are
+ * fractions of bits.
  */
+enum {
+    MOST_KINDS = 12
+};
+
 typedef struct {
-    int relief, sections;
-    int header, frame, counts, dimension, heights, starts, differences, padding, check;
+    int kinds;
+    struct {
+        const char *name, *key;
+        double bits;
+    } of[MOST_KINDS];
+    int sections; /* bytes */
 } budget_t;
 
 /* What the regions between the contours are to each other. */
@@ -91,29 +100,62 @@ static bool is_compact(const info_t *info)
     return info->file->load.profile == YB_COMPACT;
 }
 
-static void find_budget(info_t *info)
+static void spend(budget_t *budget, const char *name, const char *key, double bits)
 {
-    if (is_compact(info)) {
-        info->budget.relief = info->file->load.relief_size * 8;
-        info->budget.check = 8;
-        info->budget.sections =
-            (int)info->file->size * 8 - info->budget.relief - info->budget.check;
-        return;
-    }
+    budget->of[budget->kinds].name = name;
+    budget->of[budget->kinds].key = key;
+    budget->of[budget->kinds++].bits = bits;
+}
+
+static void find_paper_budget(info_t *info)
+{
     int contours = info->file->load.contour_count;
     int coded = info->corners > 0 ? info->corners : 1;
     budget_t *budget = &info->budget;
-    budget->header = HEADER_BITS;
-    budget->frame = 16 * coded;
-    budget->counts = 8 * contours;
-    budget->dimension = 8;
-    budget->heights = 16 * contours;
-    budget->starts = 16 * contours;
-    budget->differences = 12 * (info->points - contours);
-    budget->check = 8;
-    budget->padding = (int)info->file->size * 8 - budget->header - budget->frame - budget->counts -
-                      budget->dimension - budget->heights - budget->starts - budget->differences -
-                      budget->check;
+    spend(budget, "header", "header", HEADER_BITS);
+    spend(budget, "frame heights", "frame_heights", 16 * coded);
+    spend(budget, "points per contour", "counts", 8 * contours);
+    spend(budget, "dimension", "dimension", 8);
+    spend(budget, "heights", "heights", 16 * contours);
+    spend(budget, "first points", "starts", 16 * contours);
+    spend(budget, "differences", "differences", 12 * (info->points - contours));
+}
+
+static void find_compact_budget(info_t *info)
+{
+    budget_t *budget = &info->budget;
+    yb_paper_t *draft = malloc(sizeof(*draft));
+    uint8_t code[YB_PAPER_MOST_BYTES];
+    yb_bits_t bits = {.by_kind = true};
+    if (draft != NULL) {
+        yb_compact_read(info->file, draft);
+        (void)yb_compact_write(draft, code, sizeof(code), &bits);
+    }
+    free(draft);
+    spend(budget, "version", "version", 8);
+    spend(budget, "header", "header", bits.of[YB_BITS_HEADER]);
+    spend(budget, "frame heights", "frame_heights", bits.of[YB_BITS_FRAME]);
+    spend(budget, "starts of lines", "starts", bits.of[YB_BITS_STARTS]);
+    spend(budget, "heights of lines", "heights", bits.of[YB_BITS_HEIGHTS]);
+    spend(budget, "lengths", "lengths", bits.of[YB_BITS_LENGTHS]);
+    spend(budget, "turns", "turns", bits.of[YB_BITS_TURNS]);
+    spend(budget, "spot heights: places", "spot_places", bits.of[YB_BITS_SPOT_PLACES]);
+    spend(budget, "spot heights: heights", "spot_heights", bits.of[YB_BITS_SPOT_HEIGHTS]);
+    budget->sections = (int)info->file->size - info->file->load.relief_size - 1;
+    spend(budget, "sections", "sections", 8 * budget->sections);
+}
+
+static void find_budget(info_t *info)
+{
+    if (is_compact(info))
+        find_compact_budget(info);
+    else
+        find_paper_budget(info);
+    spend(&info->budget, "check", "check", 8);
+    double rest = (double)info->file->size * 8;
+    for (int i = 0; i < info->budget.kinds; i++)
+        rest -= info->budget.of[i].bits;
+    spend(&info->budget, "padding", "padding", rest);
 }
 
 /* Walks from region to region over the lines, each once: their adjacency is a tree. */
@@ -212,27 +254,12 @@ static void print_contours(const info_t *info)
 
 static void print_budget(const info_t *info)
 {
-    const budget_t *budget = &info->budget;
-    const struct {
-        const char *name;
-        int bits;
-    } row[] = {{"relief", budget->relief},
-               {"sections", budget->sections},
-               {"header", budget->header},
-               {"frame heights", budget->frame},
-               {"points per contour", budget->counts},
-               {"dimension", budget->dimension},
-               {"heights", budget->heights},
-               {"first points", budget->starts},
-               {"differences", budget->differences},
-               {"padding", budget->padding},
-               {"check", budget->check}};
-    int all = (int)info->file->size * 8;
+    double all = (double)info->file->size * 8;
     puts("\nbits");
-    for (size_t i = 0; i < sizeof(row) / sizeof(row[0]); i++)
-        if (row[i].bits > 0 || (i >= 2 && !is_compact(info)))
-            printf("  %-18s %5d  %4.1f %%\n", row[i].name, row[i].bits, 100.0 * row[i].bits / all);
-    printf("  %-18s %5d\n", "in all", all);
+    for (int i = 0; i < info->budget.kinds; i++)
+        printf("  %-22s %7.1f  %4.1f %%\n", info->budget.of[i].name, info->budget.of[i].bits,
+               100 * info->budget.of[i].bits / all);
+    printf("  %-22s %7.1f\n", "in all", all);
 }
 
 static void print_frame(const info_t *info)
@@ -283,7 +310,7 @@ static void print_sections(const info_t *info)
         if (at == section.whole)
             printf("  sections          ");
         printf(" %s %zu bytes%s", section_name(section.kind), section.whole,
-               at < (size_t)info->budget.sections / 8 ? "," : "\n");
+               at < (size_t)info->budget.sections ? "," : "\n");
     }
 }
 
@@ -335,14 +362,23 @@ static void print_text(const info_t *info)
 
 static json_t *json_budget(const budget_t *budget)
 {
-    if (budget->relief > 0)
-        return json_pack("{s:i, s:i, s:i}", "relief", budget->relief, "sections", budget->sections,
-                         "check", budget->check);
-    return json_pack("{s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "header", budget->header,
-                     "frame_heights", budget->frame, "counts", budget->counts, "dimension",
-                     budget->dimension, "heights", budget->heights, "starts", budget->starts,
-                     "differences", budget->differences, "padding", budget->padding, "check",
-                     budget->check);
+    json_t *bits = json_object();
+    for (int i = 0; i < budget->kinds; i++)
+        json_object_set_new(bits, budget->of[i].key, json_real(budget->of[i].bits));
+    return bits;
+}
+
+/* Bytes of the same contours in the paper profile, where long steps would need more points still.
+ */
+static int paper_bytes(const info_t *info)
+{
+    const yb_load_t *load = &info->file->load;
+    int corners = 0;
+    for (int i = 0; i < 4; i++)
+        corners += load->corner_height[i] != INT32_MIN;
+    int body = 12 * info->points + 20 * load->contour_count + 8;
+    return HEADER_BITS / 8 + 2 * (corners > 0 ? corners : 1) + load->contour_count +
+           (body + 7) / 8 + 1;
 }
 
 /* Whole steps, as in a code, are whole numbers. */
@@ -418,6 +454,7 @@ static void json_code(const info_t *info, json_t *root)
         json_object_set_new(root, "shift", json_integer(info->file->bytes[1] & 3));
         json_object_set_new(root, "corners_coded", json_integer(info->corners));
     }
+    json_object_set_new(root, "paper_bytes", json_integer(paper_bytes(info)));
     json_object_set_new(root, "unit_m", json_real(info->unit_m));
     json_object_set_new(root, "dimension", json_real(2 - hurst));
     json_object_set_new(root, "hurst", json_real(hurst));

@@ -552,3 +552,51 @@ size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_
     put_seed(&coder, paper->seed);
     return yb_sections_end(paper->sections, code, coder.size, room);
 }
+
+/* Units above the base that a draft of a code counts from: low enough for all heights. */
+enum {
+    DRAFT_DEPTH = 32768
+};
+
+static uint16_t read_height(const yb_code_file_t *file, int32_t z_q8)
+{
+    const yb_map_t *map = &file->map;
+    double height_m = map->base_m + z_q8 / 256.0 * yb_paper_metres(map->cell);
+    double units = height_m / yb_paper_metres(map->unit) - file->load.base;
+    return (uint16_t)(lround(units) + DRAFT_DEPTH);
+}
+
+void yb_compact_read(const yb_code_file_t *file, yb_paper_t *paper)
+{
+    const yb_map_t *map = &file->map;
+    const yb_load_t *load = &file->load;
+    *paper = (yb_paper_t){.profile = YB_COMPACT,
+                          .east = (uint8_t)(map->east_q8 >> 8),
+                          .north = (uint8_t)(map->north_q8 >> 8),
+                          .spacing = load->spacing,
+                          .interval = load->interval,
+                          .vertex_class = (uint8_t)yb_compact_vertex_class(load->vertices_promised),
+                          .cell = map->cell,
+                          .unit = map->unit,
+                          .base = load->base - DRAFT_DEPTH,
+                          .seed = map->seed,
+                          .gain = load->gain,
+                          .dimension = (uint8_t)(255 - map->hurst_q8m1),
+                          .straight = !map->smooth,
+                          .frame = read_height(file, load->frame_height),
+                          .sections = &file->sections};
+    for (int i = 0; i < YB_CORNERS; i++)
+        if (load->corner_height[i] != INT32_MIN) {
+            paper->corners |= (uint8_t)(1U << i);
+            paper->corner[i] = read_height(file, load->corner_height[i]);
+        }
+    for (int i = 0; i < load->contour_count; i++) {
+        const yb_contour_t *contour = &load->contour[i];
+        const yb_vertex_t *vertex = &map->vertex[contour->first];
+        yb_step_t point[YB_PAPER_POINTS];
+        for (int k = 0; k < contour->count && k < YB_PAPER_POINTS; k++)
+            point[k] = (yb_step_t){(uint8_t)(vertex[k].x_q8 >> 8), (uint8_t)(vertex[k].y_q8 >> 8)};
+        yb_paper_append(paper, read_height(file, vertex->z_q8), contour->open, point,
+                        contour->count);
+    }
+}

@@ -12,6 +12,9 @@
  */
 size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits);
 
+/* The draft that a code was written from: writing it again gives the code's bytes. */
+void yb_compact_read(const yb_code_file_t *file, yb_paper_t *paper);
+
 /* The nearest of the profile's cells, units, gains and dimensions. */
 uint16_t yb_compact_cell(double metres);
 uint16_t yb_compact_unit(double metres);

@@ -11,7 +11,7 @@
  */
 static const double slope_weight = 0.5;
 /* Share of the samples that the highest place counts as: it is what people look at first. */
-static const double summit_weight = 0.003;
+static const double summit_weight = 0.01;
 
 enum {
     MOST_SIDE = 256
