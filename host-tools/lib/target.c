@@ -29,7 +29,7 @@ enum {
     ON_BEST = 6000,
     ON_FINE = 3000,
     BETTER = 3,
-    MOST_ROUNDS = 3 /* of the last, as long as nothing was found */
+    MOST_ROUNDS = 2 /* of the last, as long as nothing was found */
 };
 
 enum {
