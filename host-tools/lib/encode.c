@@ -402,7 +402,7 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
     encoder->grid = grid;
     encoder->task = task;
     encoder->given = given;
-    encoder->side = judge_side(task->most_bytes);
+    encoder->side = judge_side(task->most_bytes - sections);
     encoder->judge = yb_judge_new(grid, encoder->side);
     bool good = encoder->judge != NULL;
     if (!good)

@@ -76,7 +76,7 @@ static void test_bad_usage(void **state)
     expect_failure(dem, "--interval -5", 2, "above 0");
     expect_failure(dem, "--levels 3 --interval 100", 2, "exclude each other");
     expect_failure(dem, "--effort 10", 2, "from 1 to 9");
-    expect_failure(dem, "--seed 256", 2, "from 0 to 255");
+    expect_failure(dem, "--seed 256", 2, "from 0 to 127");
     expect_failure(dem, "--target-k 1.5", 2, "above 0, at most 1");
     expect_failure(dem, "--target-k alike", 2, "above 0, at most 1");
     expect_failure(dem, "--window 1 2 3", 2, "four numbers");
