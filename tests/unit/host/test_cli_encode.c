@@ -297,8 +297,7 @@ static void test_info_adds_up(void **state)
     double bits = 0;
     const char *key = NULL;
     json_t *value = NULL;
-    json_object_foreach(json_object_get(info, "bits"), key, value) bits +=
-        json_number_value(value);
+    json_object_foreach(json_object_get(info, "bits"), key, value) bits += json_number_value(value);
     assert_true(fabs(bits - 8.0 * (double)number(info, "bytes")) < 1e-4);
     assert_int_equal(json_array_size(json_object_get(info, "contours")), number(info, "m"));
     const json_t *fractal = json_object_get(made, "fractal");

@@ -2,6 +2,7 @@
 #include "encode.h"
 #include "paper_code.h"
 #include "scratch.h"
+#include "sketch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,6 +31,18 @@ static double contour_m(const yb_code_file_t *code, int contour)
     return code->map.base_m + first->z_q8 * yb_paper_metres(code->map.cell) / 256;
 }
 
+/* How far the map is off at the highest place. */
+static double summit_error_m(const yb_code_file_t *code, const yb_grid_t *grid)
+{
+    yb_place_t summit = yb_sketch_summit(grid);
+    const yb_map_t *map = &code->map;
+    int32_t z_q8 =
+        yb_map_height(map, (uint16_t)lround(summit.x_m / yb_grid_width_m(grid) * map->east_q8),
+                      (uint16_t)lround(summit.y_m / yb_grid_depth_m(grid) * map->north_q8));
+    double height_m = map->base_m + z_q8 * yb_paper_metres(map->cell) / 256;
+    return fabs(height_m - (double)grid->high_m);
+}
+
 static void test_near_the_relief(void **state)
 {
     (void)state;
@@ -40,9 +53,7 @@ static void test_near_the_relief(void **state)
         yb_encode_result_t result;
         encode_grid(grid, &task, &result);
         assert_true(result.rmse_m / result.std_m < 0.12);
-        /* The summit is there, at its height. */
-        assert_int_equal(result.code->load.contour[0].count, 1);
-        assert_true(fabs(contour_m(result.code, 0) - (double)grid->high_m) < 1);
+        assert_true(summit_error_m(result.code, grid) < 0.3 * grid->std_m);
         yb_code_file_free(result.code);
         yb_grid_free(grid);
     }

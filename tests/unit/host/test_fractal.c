@@ -256,7 +256,7 @@ static void hill(yb_paper_t *paper)
 {
     static const yb_step_t ring[] = {{60, 60}, {180, 60}, {180, 180}, {60, 180}};
     static const yb_step_t summit = {120, 120};
-    yb_sketch_begin(paper, (SIDE - 1) * 30.0, (SIDE - 1) * 30.0, 0, 1500, 2);
+    yb_sketch_begin(paper, (SIDE - 1) * 30.0, (SIDE - 1) * 30.0, 0, 1500, 4);
     assert_true(yb_paper_append(paper, yb_paper_height(paper, 500), false, ring, 4));
     assert_true(yb_paper_append(paper, yb_paper_height(paper, 1000), false, &summit, 1));
 }

@@ -17,7 +17,7 @@
 
 static void begin(yb_paper_t *paper, int shift)
 {
-    yb_sketch_begin(paper, 10000, 10000, 200, 1800, shift);
+    yb_sketch_begin(paper, 10000, 10000, 200, 1800, 1 << shift);
 }
 
 static void test_units(void **state)

@@ -81,24 +81,28 @@ static void test_lattice(void **state)
     yb_step_t point[YB_PAPER_POINTS];
     circle(place, 3000);
     yb_line_t line = {.closed = true, .count = CIRCLE, .place = place};
-    for (int shift = 0; shift <= 3; shift++) {
-        yb_lattice_t lattice = {10000, 10000, 248, 248, shift};
+    const int spacings[] = {1, 2, 4, 8, 5};
+    for (int s = 0; s < 5; s++) {
+        int side = 248 / spacings[s] * spacings[s];
+        yb_lattice_t lattice = {10000, 10000, side, side, spacings[s]};
         int count = yb_simplify_to_lattice(&line, 400, &lattice, point, YB_PAPER_POINTS);
         assert_in_range(count, 4, 16);
-        for (int i = 1; i < count; i++) {
-            assert_int_equal((point[i].x - point[0].x) % (1 << shift), 0);
-            assert_int_equal((point[i].y - point[0].y) % (1 << shift), 0);
+        for (int i = 0; i < count; i++) {
+            assert_int_equal(point[i].x % spacings[s], 0);
+            assert_int_equal(point[i].y % spacings[s], 0);
         }
     }
     yb_place_t across[] = {{0, 3333}, {4000, 3100}, {10000, 7777}};
     yb_line_t open = {.closed = false, .count = 3, .place = across};
-    yb_lattice_t lattice = {10000, 10000, 248, 248, 3};
+    yb_lattice_t lattice = {10000, 10000, 248, 248, 8};
     int count = yb_simplify_to_lattice(&open, 1, &lattice, point, YB_PAPER_POINTS);
     assert_int_equal(count, 3);
     assert_int_equal(point[0].x, 0);
     assert_int_equal(point[2].x, 248);
     assert_in_range(point[1].x, 1, 247);
     circle(place, 10);
+    for (int i = 0; i < CIRCLE; i++)
+        place[i].x_m += 100, place[i].y_m += 100;
     assert_int_equal(yb_simplify_to_lattice(&line, 1, &lattice, point, YB_PAPER_POINTS), 0);
 }
 
