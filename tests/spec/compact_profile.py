@@ -189,7 +189,6 @@ class Relief:
         if base and decide.one_of(2):
             base = -base
         plan.base, self.cut_off = divmod(base * plan.unit, 64)
-        refuse_if(not -(1 << 15) <= plan.base < 1 << 15)
         plan.hurst = 256 - 8 * decide.one_of(32)
         v = decide.one_of(16)
         plan.gain = 0 if v == 0 else (181 if v % 2 else 128) >> (7 - v // 2)
@@ -269,11 +268,12 @@ class Relief:
             run = run_length(places - place, to_come)
             while self.decide.bit("GAP"):
                 place += run
+                refuse_if(place > 65535)
             place += self.decide.one_of(run)
-            refuse_if(place >= places)
             spot = 1 + place % (self.east - 1), 1 + place // (self.east - 1)
             height = nearest_height(self.known, spot)
             height += self.decide.difference("SPOT_HEIGHT", "SPOT_DOWN")
+            refuse_if(place >= places)
             self.add(spot, height)
             self.lines.append(([spot], height))
             place += 1
@@ -289,6 +289,7 @@ class Relief:
     def finish(self):
         """In steps and q8."""
         plan = self.plan
+        refuse_if(not -(1 << 15) <= plan.base < 1 << 15)
         plan.east, plan.north = self.east * self.spacing, self.north * self.spacing
         plan.lines = [([(x * self.spacing, y * self.spacing) for x, y in line],
                        self.height_q8(height)) for line, height in self.lines]
