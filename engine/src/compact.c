@@ -216,8 +216,7 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, int value)
         return expect(load, BASE, NUMBER, MODEL_BASE);
     case BASE:
         load->base = value;
-        return value != 0 ? expect_one_of(load, BASE_DOWN, 2)
-                          : expect_one_of(load, DIMENSION, 32);
+        return value != 0 ? expect_one_of(load, BASE_DOWN, 2) : expect_one_of(load, DIMENSION, 32);
     case BASE_DOWN:
         load->base = value != 0 ? -load->base : load->base;
         return expect_one_of(load, DIMENSION, 32);
@@ -237,7 +236,14 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, int value)
 
 /* --- Points --------------------------------------------------------------------------------- */
 
-/* Until the relief is complete a vertex's z is in units above the base. */
+/* Heights farther from the base, in units, are too high in every unit. */
+enum {
+    MOST_UNITS = 1 << 29
+};
+
+/* Until the relief is complete a vertex's z is in units above the base; cut, so that sums of
+ * however many differences below 2^18 fit.
+ */
 static yb_status_t add_point(yb_map_t *map, yb_load_t *load, int32_t units)
 {
     if (load->point_count >= load->vertices_promised || load->x < 0 || load->y < 0 ||
@@ -246,7 +252,7 @@ static yb_status_t add_point(yb_map_t *map, yb_load_t *load, int32_t units)
     yb_vertex_t *point = &map->vertex[load->point_count];
     point->x_q8 = (uint16_t)(load->x * load->spacing << 8);
     point->y_q8 = (uint16_t)(load->y * load->spacing << 8);
-    point->z_q8 = units;
+    point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
     load->point_count++;
     return YB_MORE;
 }
@@ -452,6 +458,11 @@ static yb_status_t take_corner_height(yb_map_t *map, yb_load_t *load, int32_t di
     return expect(load, SPOT_COUNT, NUMBER, MODEL_SPOTS);
 }
 
+static uint32_t inner_places(const yb_map_t *map, const yb_load_t *load)
+{
+    return (uint32_t)((columns_of(map, load) - 1) * (rows_of(map, load) - 1));
+}
+
 /* Spot heights lie in the inner lattice points' order, row by row. The gap to the next one is
  * coded in runs of about its median, from how many points and spots are left.
  */
@@ -459,25 +470,28 @@ static yb_status_t next_spot(const yb_map_t *map, yb_load_t *load)
 {
     if (load->spots == 0)
         return expect(load, SECTIONS, BIT, MODEL_SECTIONS);
-    uint32_t points = (uint32_t)((columns_of(map, load) - 1) * (rows_of(map, load) - 1));
-    if (load->cell >= points)
+    uint32_t places = inner_places(map, load);
+    if (load->cell >= places)
         return YB_ERR_CORRUPT;
-    load->run = (uint16_t)gap_run(points - load->cell, load->spots);
+    load->run = (uint16_t)gap_run(places - load->cell, load->spots);
     return expect(load, GAP, BIT, MODEL_GAP);
 }
 
-static yb_status_t take_gap(yb_load_t *load, int more)
+static yb_status_t take_gap(const yb_map_t *map, yb_load_t *load, int more)
 {
     if (more == 0)
         return expect_one_of(load, CELL, load->run);
     load->cell += load->run;
-    return load->cell > UINT16_MAX ? YB_ERR_CORRUPT : expect(load, GAP, BIT, MODEL_GAP);
+    return load->cell < inner_places(map, load) ? expect(load, GAP, BIT, MODEL_GAP)
+                                                : YB_ERR_CORRUPT;
 }
 
 static yb_status_t take_cell(const yb_map_t *map, yb_load_t *load, int value)
 {
     uint32_t columns = (uint32_t)columns_of(map, load) - 1;
     load->cell += (uint32_t)value;
+    if (load->cell >= inner_places(map, load))
+        return YB_ERR_CORRUPT;
     load->x = (int16_t)(1 + load->cell % columns);
     load->y = (int16_t)(1 + load->cell / columns);
     load->cell++;
@@ -508,7 +522,7 @@ static yb_status_t take_corner_or_spot(yb_map_t *map, yb_load_t *load, int value
         load->spots = (uint16_t)value;
         return next_spot(map, load);
     case GAP:
-        return take_gap(load, value);
+        return take_gap(map, load, value);
     case CELL:
         return take_cell(map, load, value);
     case SPOT_HEIGHT:
@@ -528,7 +542,7 @@ static int64_t floor_div(int64_t a, int64_t b)
 }
 
 /* From units above the base to q8 steps; rest_64th_m is what base_m leaves of the base. Units are
- * below 2^27, a unit is below 2^20 64ths of a metre: 2^55 with the fraction bits. False: too high.
+ * below 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits. False: too high.
  */
 static bool settle_height(const yb_map_t *map, int64_t rest_64th_m, int32_t *height)
 {

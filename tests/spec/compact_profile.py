@@ -268,12 +268,12 @@ class Relief:
             run = run_length(places - place, to_come)
             while self.decide.bit("GAP"):
                 place += run
-                refuse_if(place > 65535)
+                refuse_if(place >= places)
             place += self.decide.one_of(run)
+            refuse_if(place >= places)
             spot = 1 + place % (self.east - 1), 1 + place // (self.east - 1)
             height = nearest_height(self.known, spot)
             height += self.decide.difference("SPOT_HEIGHT", "SPOT_DOWN")
-            refuse_if(place >= places)
             self.add(spot, height)
             self.lines.append(([spot], height))
             place += 1
