@@ -48,7 +48,7 @@ class Decisions:
 
     def fill(self):
         while self.range < WHOLE_RANGE:
-            self.code = self.code << 8 | self.read.number(1)
+            self.code = (self.code << 8 | self.read.number(1)) % (1 << 32)
             self.range <<= 8
 
     def one_of(self, n):
