@@ -58,11 +58,11 @@ static int32_t interpolate(const yb_map_t *map, const yb_load_t *load, yb_index_
             height_behind = v->z_q8;
         }
     }
-    /* |heights| are at most 2^17 and ways 2^18: the sum stays below 2^36. */
-    int64_t ways = (int64_t)ahead + behind;
-    int64_t sum =
-        (int64_t)height_ahead * behind + (int64_t)height_behind * ahead + (ahead + behind) / 2;
-    return (int32_t)(sum >= 0 ? sum / ways : -((ways - 1 - sum) / ways)); /* rounded down */
+    /* Counted from the lowest possible height, so that the division rounds down. Heights are then
+     * at most 2^18, as ways are: the sum stays below 2^37. */
+    uint64_t sum = (uint64_t)(height_ahead + YB_MAX_HEIGHT_Q8) * behind +
+                   (uint64_t)(height_behind + YB_MAX_HEIGHT_Q8) * ahead;
+    return (int32_t)((sum + (ahead + behind) / 2) / (ahead + behind)) - YB_MAX_HEIGHT_Q8;
 }
 
 /* Makes corner k a vertex, unless a line ends there. */

@@ -1,11 +1,14 @@
 /* What the engine makes of codes, as text, for a second decoder to compare.
  *
  *     dump_mesh CODE ...
+ *     dump_mesh --lines
  *     dump_mesh --random SEED COUNT
  *
- * A CODE is a file of hexadecimal digits. --random takes COUNT random codes: legal ones, such as
+ * A CODE is a file of hexadecimal digits; --lines takes codes from standard input, one a line.
+ * --random takes COUNT random codes of the paper profile: legal ones, such as
  * may cross or touch, and damaged ones, some of them with a check that fits. For each code a line
- * "code DIGITS" and a line "status WORD"; if that is "ok" then "vertex X Y Z GX GY" and
+ * "code DIGITS", a line "status WORD" and a line "taken BYTES", the bytes after which it was known;
+ * if it is "ok" then "header CELL UNIT BASE SEED" (in 1/64 m, in metres), "vertex X Y Z GX GY" and
  * "triangle A B C" for each, "noise" and the scale of every length class, and some lines
  * "height X Y Z SMOOTH" of the reference surface with and without detail; at last "end".
  */
@@ -19,7 +22,8 @@
 #include "random_plan.h"
 
 enum {
-    PLACES = 12
+    PLACES = 12,
+    MOST_BYTES = 4096
 };
 
 static yb_map_t map;
@@ -50,18 +54,32 @@ static void dump_heights(rng_t *rng)
     }
 }
 
+/* Byte by byte; how many were taken until the answer was known. */
+static yb_status_t take(const uint8_t *code, size_t count, size_t *taken)
+{
+    yb_map_begin(&map, &load);
+    yb_status_t status = YB_MORE;
+    for (*taken = 0; *taken < count && status >= 0; (*taken)++)
+        status = yb_map_feed(&map, &load, code + *taken, 1);
+    return yb_map_end(&map, &load);
+}
+
 static void dump(const uint8_t *code, size_t count, rng_t *rng)
 {
-    yb_status_t status = yb_map_load(&map, &load, code, count);
+    size_t taken;
+    yb_status_t status = take(code, count, &taken);
     printf("code ");
     for (size_t i = 0; i < count; i++)
         printf("%02x", code[i]);
-    printf("\nstatus %s\n", yb_status_text(status));
+    printf("\nstatus %s\ntaken %zu\n", yb_status_text(status), taken);
+    if (status == YB_OK)
+        printf("header %" PRIu32 " %" PRIu32 " %d %d\n", yb_unit_64th_m(map.cell),
+               yb_unit_64th_m(map.unit), map.base_m, map.seed);
     for (int i = 0; status == YB_OK && i < map.vertex_count; i++) {
         const yb_vertex_t *v = &map.vertex[i];
         printf("vertex %d %d %" PRId32 " %d %d\n", v->x_q8, v->y_q8, v->z_q8, v->gx_q11, v->gy_q11);
     }
-    for (int i = 0; status == YB_OK && i < map.triangle_count; i++)
+    for (yb_triangle_t i = 0; status == YB_OK && i < map.triangle_count; i++)
         printf("triangle %d %d %d\n", map.triangle[i][0], map.triangle[i][1], map.triangle[i][2]);
     if (status == YB_OK) {
         printf("noise");
@@ -114,7 +132,7 @@ static int dump_file(const char *path)
         perror(path);
         return 1;
     }
-    uint8_t code[YB_MAX_CODE_BYTES];
+    uint8_t code[MOST_BYTES];
     size_t count = 0;
     unsigned byte;
     while (count < sizeof code && fscanf(file, "%2x", &byte) == 1)
@@ -122,6 +140,21 @@ static int dump_file(const char *path)
     (void)fclose(file);
     rng_t rng = {count};
     dump(code, count, &rng);
+    return 0;
+}
+
+static int dump_lines(void)
+{
+    static char line[2 * MOST_BYTES + 2];
+    while (fgets(line, sizeof line, stdin) != NULL) {
+        uint8_t code[MOST_BYTES];
+        size_t count = 0;
+        unsigned byte;
+        while (sscanf(line + 2 * count, "%2x", &byte) == 1)
+            code[count++] = (uint8_t)byte;
+        rng_t rng = {count};
+        dump(code, count, &rng);
+    }
     return 0;
 }
 
@@ -134,8 +167,10 @@ int main(int argc, char **argv)
             dump_random(seed + i);
         return 0;
     }
+    if (argc == 2 && strcmp(argv[1], "--lines") == 0)
+        return dump_lines();
     if (argc < 2 || argv[1][0] == '-') {
-        (void)fprintf(stderr, "usage: dump_mesh CODE ... | dump_mesh --random SEED COUNT\n");
+        (void)fprintf(stderr, "usage: dump_mesh CODE ... | --lines | --random SEED COUNT\n");
         return 2;
     }
     for (int i = 1; i < argc; i++) {

@@ -1,22 +1,17 @@
 """A second decoder of the Yamabiko code, written from docs/SPEC.md alone: exact, not fast.
 
-decode(code) gives a Map or raises Refused; numbers in the comments are the sections of that page.
+decode(code, room) gives a Map or raises Refused; numbers in the comments are the sections of that
+page. compact_profile.py reads 1.3.
 All numbers are whole; plan positions and heights are q8.
 """
 
 import math
 from fractions import Fraction
 
+import compact_profile
+from refusals import Refused, refuse_if
+
 HIGHEST = 131072
-
-
-class Refused(Exception):
-    """truncated, corrupt, version or limit"""
-
-
-def refuse_if(wrong, why="corrupt"):
-    if wrong:
-        raise Refused(why)
 
 
 # --- 1. The code ----------------------------------------------------------------------------------
@@ -75,11 +70,11 @@ def crc8(code):
 def read_header(read):
     """1.1"""
     plan = Plan()
-    refuse_if(read.number(1) != 0x20, "version")
     flags, contours, plan.most_vertices, plan.east, plan.north = (read.number(1) for _ in range(5))
-    cell, unit, _, plan.seed, plan.gain = (read.number(n) for n in (2, 2, 2, 1, 1))
+    cell, unit, base, plan.seed, plan.gain = (read.number(n) for n in (2, 2, 2, 1, 1))
     refuse_if(flags & 8 or plan.most_vertices < 4 or plan.east == 0 or plan.north == 0)
     plan.cell, plan.unit = unit_64th(cell), unit_64th(unit)
+    plan.base = (base ^ 0x8000) - 0x8000
     plan.smooth = not flags & 4
     plan.shift = flags & 3
     plan.corner = [height_q8(plan, read.number(2)) if flags & 0x80 >> k else None for k in range(4)]
@@ -122,13 +117,41 @@ def read_body(read, plan):
     refuse_if(held[0] != 0)
 
 
-def read_code(code):
-    read = Bytes(code)
-    plan = read_header(read)
-    read_body(read, plan)
+def read_compact(read, room):
+    """1.3"""
+    plan = Plan()
+    plan.points, plan.contours = [], []
+    sections = compact_profile.read_relief(read, plan, room)
+    for line, z in plan.lines:
+        plan.contours.append(Contour(len(plan.points), len(line), z))
+        plan.points += line
+    if sections:
+        skip_sections(read)
+    return plan
+
+
+def skip_sections(read):
+    """1.4"""
+    last = False
+    while not last:
+        head = read.number(1)
+        last = head & 0x80
+        size = head & 15
+        if size == 15:
+            size = read.number(2)
+        read.number(size)
+
+
+def read_code(read, room):
+    profile = read.number(1)
+    refuse_if(profile not in (0x20, 0x21), "version")
+    if profile == 0x21:
+        plan = read_compact(read, room)
+    else:
+        plan = read_header(read)
+        read_body(read, plan)
     read.number(1)
-    refuse_if(crc8(code[: read.at]) != 0)
-    plan.bytes = read.at
+    refuse_if(crc8(read.code[: read.at]) != 0)
     return plan
 
 
@@ -156,7 +179,7 @@ def cross(a, b, c, d):
 
 
 def check_contours(plan):
-    """1.4"""
+    """1.6"""
     points = plan.points
     refuse_if(len(set(points)) < len(points))
     ends = set()
@@ -991,6 +1014,7 @@ class Map:
     def __init__(self, plan, mesh):
         self.coded = mesh.coded
         self.seed, self.smooth = plan.seed, plan.smooth
+        self.cell, self.unit, self.base = plan.cell, plan.unit, plan.base
         slopes = find_slopes(mesh)
         self.vertex = [(*mesh.place[v], mesh.z[v], *slopes[v]) for v in range(len(mesh.place))]
         self.triangle = mesh.triangles()
@@ -1041,12 +1065,24 @@ def holds(corner, place):
     return min(turn(a, b, place), turn(b, c, place), turn(c, a, place)) >= 0
 
 
-def decode(code):
-    plan = read_code(code)
+def build(plan):
     check_contours(plan)
     mesh = triangulate(plan)
     add_summits(mesh)
     add_links(mesh)
     Skeletons(mesh)
-    refuse_if(plan.bytes < len(code))
     return Map(plan, mesh)
+
+
+def decode(code, room=255):
+    """`room`: for so many vertices"""
+    read = Bytes(code)
+    try:
+        found = build(read_code(read, room))
+        if read.at < len(code):
+            read.at += 1
+            raise Refused("corrupt")
+    except Refused as refused:
+        refused.after = len(code) if str(refused) == "truncated" else read.at
+        raise
+    return found

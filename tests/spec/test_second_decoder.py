@@ -16,10 +16,10 @@ import tempfile
 import second_decoder
 
 
-def records(program, words):
-    """What dump_mesh prints: for each code a dictionary of its lines."""
-    text = subprocess.run([program, *map(str, words)], check=True, capture_output=True,
-                          text=True).stdout
+def records(program, words, codes=()):
+    """What dump_mesh prints: for each code a dictionary of its lines. `codes`: for --lines."""
+    text = subprocess.run([program, *map(str, words)], check=True, capture_output=True, text=True,
+                          input="".join(code.hex() + "\n" for code in codes)).stdout
     record = collections.defaultdict(list)
     for line in text.splitlines():
         what, *rest = line.split()
@@ -38,19 +38,25 @@ def turned(corners):
     return corners[k:] + corners[:k]
 
 
-def differences(record):
+def differences(record, room=255):
     """Says what differs, one sentence each."""
+    code = bytes.fromhex(record["code"])
+    taken = len(code)
     try:
-        found = second_decoder.decode(bytes.fromhex(record["code"]))
+        found = second_decoder.decode(code, room)
     except second_decoder.Refused as refused:
-        status = str(refused)
+        status, taken = str(refused), refused.after
     else:
         status = "ok"
     if status != record["status"]:
         yield f"status {status}, not {record['status']}"
         return
+    if [(taken,)] != record["taken"]:
+        yield f"{status} after {taken} bytes, not {record['taken']}"
     if status != "ok":
         return
+    if [(found.cell, found.unit, found.base, found.seed)] != record["header"]:
+        yield f"header {found.cell, found.unit, found.base, found.seed}, not {record['header']}"
     if len(found.vertex) != len(record["vertex"]):
         yield f"{len(found.vertex)} vertices, not {len(record['vertex'])}"
     for k, (mine, its) in enumerate(zip(found.vertex, record["vertex"])):

@@ -200,34 +200,30 @@ typedef struct {
     uint16_t first_skeleton; /* … and from here on points of skeletons */
     uint16_t relief_size;    /* bytes of the code before its sections, or its check byte */
     uint8_t profile;
-    /* private: the decoder (code.c) */
-    uint8_t part;
-    uint8_t crc;
-    uint8_t section;
-    uint16_t section_at, section_size;
-    uint16_t size;
-    yb_status_t result;
-    /* private: both profiles */
-    uint8_t state;
-    uint8_t gain;
+    /* private: the decoder. Bytes first, then the smaller numbers: the shortest instructions of
+     * small processors reach no farther. */
+    uint8_t part, crc, section;
+    uint8_t state, element, classes, left;
+    uint8_t spacing, interval, columns, rows;
+    uint8_t sector, turn_context, length_context, corner_at;
+    bool open, narrow;
     uint16_t at; /* how far the state has come; the element's model */
+    uint16_t value, recent, lines, spots, run;
     uint16_t point_count;
     uint16_t vertices_promised;
-    /* private: the paper profile (paper.c) */
+    uint16_t section_at, section_size, size;
+    yb_status_t result;
+    int16_t x, y, start_x, start_y, way, length, height;
+    yb_ring_t last; /* step */
+    uint32_t range, code, cell;
+    int32_t base;
+    uint8_t gain;
+    /* of the paper profile (paper.c) */
     uint8_t flags;
     uint8_t bits_held;
     uint32_t bits;
     uint8_t header[14];
-    /* private: the compact profile (compact.c) */
-    uint8_t element, classes, left;
-    uint8_t spacing, interval;
-    uint8_t sector, turn_context, length_context, corner_at;
-    bool open, narrow;
-    uint16_t value, recent, lines, spots, run;
-    int16_t x, y, start_x, start_y, way, length, height;
-    yb_ring_t last; /* step */
-    int32_t base;
-    uint32_t range, code, cell;
+    /* private: what both find */
     int32_t corner_height[4];
     int32_t frame_height;
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
