@@ -120,14 +120,16 @@ static void choose_unit(const encoder_t *encoder, yb_paper_t *paper)
         step_m = fmin(step_m, encoder->level_m[i] - encoder->level_m[i - 1]);
     paper->unit = yb_compact_unit(encoder->levels > 0 ? (double)(grid->high_m - grid->low_m) / 256
                                                       : grid->std_m / 5);
-    for (int shift = 2; shift >= 0 && step_m > 0; shift--) {
-        uint16_t unit = yb_compact_unit(step_m / (1 << shift));
-        double unit_m = yb_paper_metres(unit);
-        if (fabs(unit_m * (1 << shift) / step_m - 1) < 1e-9 && divides(encoder, step_m)) {
-            paper->unit = unit;
-            paper->interval = (uint8_t)shift;
-            break;
-        }
+    /* Powers of two first: lines then skip units that spot heights have. */
+    static const int parts[] = {4, 2, 1, 8, 5, 3, 10, 6, 7, 20, 25, 9};
+    for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]) && step_m > 0; i++) {
+        uint16_t unit = yb_compact_unit(step_m / parts[i]);
+        if (fabs(yb_paper_metres(unit) * parts[i] / step_m - 1) > 1e-9 || !divides(encoder, step_m))
+            continue;
+        paper->unit = unit;
+        paper->interval =
+            (uint8_t)(parts[i] <= 8 && (parts[i] & (parts[i] - 1)) == 0 ? (int)log2(parts[i]) : 0);
+        break;
     }
     /* Well below the lowest height, and a multiple of all intervals. */
     double range_m = (double)(grid->high_m - grid->low_m);

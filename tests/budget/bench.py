@@ -22,8 +22,9 @@ PAGE_HEAD = """# Benchmarks
 Written by `scripts/bench --page docs/BENCHMARKS.md`, not by hand. Instructions are counted by a plugin
 of QEMU: exact and repeatable, but instructions, not cycles. "Most" is the budget in
 [tests/budget/budgets.tsv](../tests/budget/budgets.tsv), where there is one; **bold** is above it.
-Frames are drawn on every map of the gallery; the standard views are four orbits, two from the summit
-and two on foot. Fidelity is of 100-byte codes made from the development windows.
+Frames are drawn on eight maps of the gallery (`boards.py`); the standard views are four orbits, two from the summit
+and two on foot. Fidelity is of codes made from the development windows, beside what ideal coders reach
+that have no header (`tests/budget/group_fidelity.py` says more).
 
 Relief: no code, but the contour lines of every development window at nine heights, a tenth of its relief
 apart, in full detail. "yamabiko" is the smooth surface of the map of these lines, "tin" the plain

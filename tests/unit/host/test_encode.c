@@ -49,7 +49,7 @@ static void test_near_the_relief(void **state)
     const relief_fn reliefs[] = {relief_cone, relief_range};
     for (int i = 0; i < 2; i++) {
         yb_grid_t *grid = scratch_grid(128, 96, reliefs[i]);
-        yb_encode_task_t task = {.most_bytes = 100, .seed = 1, .effort = 1};
+        yb_encode_task_t task = {.profile = YB_COMPACT, .most_bytes = 100, .seed = 1, .effort = 1};
         yb_encode_result_t result;
         encode_grid(grid, &task, &result);
         assert_true(result.rmse_m / result.std_m < 0.12);
@@ -63,7 +63,7 @@ static void test_same_bytes_again(void **state)
 {
     (void)state;
     yb_grid_t *grid = scratch_grid(64, 64, relief_range);
-    yb_encode_task_t task = {.most_bytes = 80, .seed = 3, .effort = 1};
+    yb_encode_task_t task = {.profile = YB_COMPACT, .most_bytes = 80, .seed = 3, .effort = 1};
     yb_encode_result_t first;
     yb_encode_result_t second;
     encode_grid(grid, &task, &first);
@@ -82,7 +82,8 @@ static void test_budgets(void **state)
     double before = HUGE_VAL;
     const size_t budgets[] = {YB_ENCODE_LEAST_BYTES, 60, 240};
     for (int i = 0; i < 3; i++) {
-        yb_encode_task_t task = {.most_bytes = budgets[i], .seed = 1, .effort = 1};
+        yb_encode_task_t task = {
+            .profile = YB_COMPACT, .most_bytes = budgets[i], .seed = 1, .effort = 1};
         yb_encode_result_t result;
         encode_grid(grid, &task, &result);
         assert_true(result.rmse_m < before);
@@ -91,7 +92,8 @@ static void test_budgets(void **state)
     }
     yb_error_t error;
     yb_encode_result_t result;
-    yb_encode_task_t task = {.most_bytes = YB_ENCODE_LEAST_BYTES - 1, .effort = 1};
+    yb_encode_task_t task = {
+        .profile = YB_COMPACT, .most_bytes = YB_ENCODE_LEAST_BYTES - 1, .effort = 1};
     assert_false(yb_encode_grid(grid, &task, &result, &error));
     assert_non_null(strstr(error.text, "the least is 23"));
     yb_grid_free(grid);
@@ -102,7 +104,8 @@ static void test_levels_are_kept(void **state)
     (void)state;
     yb_error_t error;
     yb_grid_t *grid = scratch_grid(64, 64, relief_range);
-    yb_encode_task_t task = {.most_bytes = 120, .interval_m = 250, .seed = 1, .effort = 1};
+    yb_encode_task_t task = {
+        .profile = YB_COMPACT, .most_bytes = 120, .interval_m = 250, .seed = 1, .effort = 1};
     yb_encode_result_t result;
     encode_grid(grid, &task, &result);
     int lines = 0;
@@ -140,7 +143,7 @@ static void test_lines(void **state)
     }
     yb_place_t across[] = {{0, 500}, {2000, 400}, {4000, 600}};
     assert_true(yb_lines_add(lines, 100, false, across, 3));
-    yb_encode_task_t task = {.most_bytes = 100, .seed = 1, .effort = 1};
+    yb_encode_task_t task = {.profile = YB_COMPACT, .most_bytes = 100, .seed = 1, .effort = 1};
     yb_encode_result_t result;
     if (!yb_encode_lines(lines, &task, &result, &error))
         fail_msg("%s", error.text);
