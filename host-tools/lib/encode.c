@@ -320,7 +320,8 @@ static bool search_drafts(encoder_t *encoder, int count, double from, double sha
     pthread_mutex_init(&crew.lock, NULL);
     crew.progress.lock = &crew.lock;
     pthread_t other;
-    bool two = count > 1 && sysconf(_SC_NPROCESSORS_ONLN) > 1 &&
+    int threads = encoder->task->threads;
+    bool two = (threads == 0 ? sysconf(_SC_NPROCESSORS_ONLN) > 1 : threads > 1) && count > 1 &&
                pthread_create(&other, NULL, work, &crew) == 0;
     work(&crew);
     if (two)

@@ -28,6 +28,7 @@ typedef struct {
     double interval_m; /* lines at multiples of it; 0: heights are the encoder's choice */
     uint8_t seed;      /* of the map's noise */
     int effort;        /* 1 to 9: the number of trials doubles with each step */
+    int threads;       /* 1 or 2; 0: two if there are two processors. The bytes are the same */
     const yb_sections_t *sections; /* after a compact relief, inside most_bytes; NULL: none. An
                                     * asked-for certificate is measured at the end */
     /* Called now and then, perhaps from another thread, never twice at once. May be NULL. */

@@ -1,4 +1,5 @@
 /* The encoder as a whole, on reliefs made here. */
+#include "compact_code.h"
 #include "encode.h"
 #include "paper_code.h"
 #include "scratch.h"
@@ -59,19 +60,50 @@ static void test_near_the_relief(void **state)
     }
 }
 
+/* However many threads there are. */
 static void test_same_bytes_again(void **state)
 {
     (void)state;
     yb_grid_t *grid = scratch_grid(64, 64, relief_range);
-    yb_encode_task_t task = {.profile = YB_COMPACT, .most_bytes = 80, .seed = 3, .effort = 1};
-    yb_encode_result_t first;
-    yb_encode_result_t second;
-    encode_grid(grid, &task, &first);
-    encode_grid(grid, &task, &second);
-    assert_int_equal(first.code->size, second.code->size);
-    assert_memory_equal(first.code->bytes, second.code->bytes, first.code->size);
-    yb_code_file_free(first.code);
-    yb_code_file_free(second.code);
+    const yb_profile_t profiles[] = {YB_PAPER, YB_COMPACT};
+    for (int i = 0; i < 2; i++) {
+        yb_encode_task_t task = {.profile = profiles[i], .most_bytes = 80, .seed = 3, .effort = 1};
+        yb_encode_result_t first;
+        yb_encode_result_t second;
+        task.threads = 1;
+        encode_grid(grid, &task, &first);
+        task.threads = 2;
+        encode_grid(grid, &task, &second);
+        assert_int_equal(first.code->size, second.code->size);
+        assert_memory_equal(first.code->bytes, second.code->bytes, first.code->size);
+        yb_code_file_free(first.code);
+        yb_code_file_free(second.code);
+    }
+    yb_grid_free(grid);
+}
+
+/* What the engine has read is what was written. */
+static void test_written_again(void **state)
+{
+    (void)state;
+    yb_grid_t *grid = scratch_grid(96, 64, relief_range);
+    const int budgets[] = {40, 110};
+    for (int i = 0; i < 2; i++) {
+        yb_encode_task_t task = {.profile = YB_COMPACT,
+                                 .most_bytes = (size_t)budgets[i],
+                                 .interval_m = i * 100.0,
+                                 .seed = 77,
+                                 .effort = 1};
+        yb_encode_result_t result;
+        encode_grid(grid, &task, &result);
+        yb_paper_t draft;
+        uint8_t code[YB_PAPER_MOST_BYTES];
+        yb_compact_read(result.code, &draft);
+        assert_int_equal(draft.seed, 77);
+        assert_int_equal(yb_compact_write(&draft, code, sizeof(code), NULL), result.code->size);
+        assert_memory_equal(code, result.code->bytes, result.code->size);
+        yb_code_file_free(result.code);
+    }
     yb_grid_free(grid);
 }
 
@@ -161,8 +193,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_near_the_relief), cmocka_unit_test(test_same_bytes_again),
-        cmocka_unit_test(test_budgets),         cmocka_unit_test(test_levels_are_kept),
-        cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_written_again),   cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_levels_are_kept), cmocka_unit_test(test_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
