@@ -127,7 +127,7 @@ static int help(void)
           "                        as yamabiko evaluate finds them: 3 bytes\n",
           stdout);
     fputs("\n"
-          "  --effort 1..9         each step doubles the trials (default 5: about half a minute)\n"
+          "  --effort 1..9         each step triples the trials (default 5: about half a minute)\n"
           "  --force               overwrite what exists\n"
           "  --json                tell the results as JSON on the standard output\n"
           "  --hex                 tell the bytes, too\n"

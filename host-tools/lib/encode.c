@@ -15,11 +15,11 @@
 #include "sketch.h"
 
 enum {
-    FREE_LEVELS = 6,     /* drafts have 1 to so many levels when their heights are free */
-    MEASURED_LEVELS = 9, /* for the fractal dimension */
-    BASE_TRIALS = 14000, /* at effort 1 */
-    FEW_BYTES = 40,      /* below that, corner heights cost too much to begin with */
-    DRAFTS = 4,          /* one for each spacing of the lattice */
+    FREE_LEVELS = 6,       /* drafts have 1 to so many levels when their heights are free */
+    MEASURED_LEVELS = 9,   /* for the fractal dimension */
+    USUAL_TRIALS = 224000, /* at effort 5; each step is three times as many */
+    FEW_BYTES = 40,        /* below that, corner heights cost too much to begin with */
+    DRAFTS = 4,            /* one for each spacing of the lattice */
     FINALISTS = 2
 };
 
@@ -96,6 +96,15 @@ static bool choose_levels(encoder_t *encoder, yb_error_t *error)
             yb_line_grid_levels(encoder->given, encoder->level_m, YB_ENCODE_MOST_LEVELS);
     }
     return true;
+}
+
+long yb_encode_trials(long usual, int effort)
+{
+    for (int i = effort; i < YB_ENCODE_DEFAULT_EFFORT; i++)
+        usual /= 3;
+    for (int i = effort; i > YB_ENCODE_DEFAULT_EFFORT; i--)
+        usual *= 3;
+    return usual;
 }
 
 /* Whether all levels are multiples of a height. */
@@ -306,7 +315,7 @@ static void *work(void *context)
  */
 static bool search_drafts(encoder_t *encoder, int count, double from, double share)
 {
-    long trials = (long)(share * (double)((long)BASE_TRIALS << (encoder->task->effort - 1)));
+    long trials = (long)(share * (double)yb_encode_trials(USUAL_TRIALS, encoder->task->effort));
     crew_t crew = {.encoder = encoder,
                    .count = count,
                    .pattern = {.trials = trials / count,
@@ -379,7 +388,7 @@ static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error
         return false;
     result->rmse_m = yb_judge_map_rmse_m(&result->code->map, encoder->grid);
     result->std_m = encoder->grid->std_m;
-    result->trials = (long)BASE_TRIALS << (encoder->task->effort - 1);
+    result->trials = yb_encode_trials(USUAL_TRIALS, encoder->task->effort);
     return true;
 }
 

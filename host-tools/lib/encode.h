@@ -27,7 +27,7 @@ typedef struct {
     int levels;        /* so many evenly spaced heights for lines; 0: see below */
     double interval_m; /* lines at multiples of it; 0: heights are the encoder's choice */
     uint8_t seed;      /* of the map's noise */
-    int effort;        /* 1 to 9: the number of trials doubles with each step */
+    int effort;        /* 1 to 9: each step triples the number of trials */
     int threads;       /* 1 or 2; 0: two if there are two processors. The bytes are the same */
     const yb_sections_t *sections; /* after a compact relief, inside most_bytes; NULL: none. An
                                     * asked-for certificate is measured at the end */
@@ -43,6 +43,9 @@ typedef struct {
     double dimension; /* measured on all contour lines */
     long trials;
 } yb_encode_result_t;
+
+/* Trials at an effort, of so many at the default one: each step triples them. */
+long yb_encode_trials(long usual, int effort);
 
 /* Codes a grid. False with a sentence on failure, else the caller frees result->code by
  * yb_code_file_free. Equal input gives equal bytes.

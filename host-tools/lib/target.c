@@ -194,7 +194,7 @@ static void fit_gain(loop_t *loop, draft_t *draft, yb_target_search_t *search)
 
 static long scaled(const loop_t *loop, int trials)
 {
-    return (long)trials * (1L << (loop->task->effort - 1)) / 16 + 1;
+    return yb_encode_trials(trials, loop->task->effort) + 1;
 }
 
 static bool make_drafts(loop_t *loop, yb_error_t *error)
