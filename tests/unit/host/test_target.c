@@ -144,7 +144,7 @@ static void test_lines(void **state)
     yb_error_t error;
     yb_target_result_t result;
     yb_lines_t *lines = make_rings();
-    yb_encode_task_t task = {.most_bytes = 104, .profile = YB_COMPACT, .seed = 1, .effort = 1};
+    yb_encode_task_t task = {.most_bytes = 104, .profile = YB_COMPACT, .seed = 1, .effort = 2};
     if (!yb_target_lines(lines, &task, 0.75, &result, &error))
         fail_msg("%s", error.text);
     yb_grid_t *grid = yb_line_grid_new(lines, &error);
