@@ -337,6 +337,8 @@ static double step_price(const coder_t *coder, const pen_t *pen, int dx, int dy)
 {
     yb_ring_t ring = ring_of(dx, dy);
     int n = ring.length;
+    if (n == 0)
+        return HUGE_VAL;
     int sector = (ring.place - ring_ahead(pen->last, n) % (8 * n) + 8 * n) % (8 * n) / n;
     double bits = log2(n);
     int class = fix_log2_floor((uint32_t)n);

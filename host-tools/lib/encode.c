@@ -315,6 +315,8 @@ static void *work(void *context)
  */
 static bool search_drafts(encoder_t *encoder, int count, double from, double share)
 {
+    if (count < 1)
+        return false;
     long trials = (long)(share * (double)yb_encode_trials(USUAL_TRIALS, encoder->task->effort));
     crew_t crew = {.encoder = encoder,
                    .count = count,

@@ -30,6 +30,8 @@ static double leaves_circle(yb_place_t foot, double radius_m, yb_place_t a, yb_p
 static double steps_along(const yb_place_t *place, int count, double step_m)
 {
     double steps = 0;
+    if (count < 1)
+        return 0;
     yb_place_t foot = place[0];
     yb_place_t at = foot;
     for (int i = 1; i < count;) {

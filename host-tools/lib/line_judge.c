@@ -92,6 +92,7 @@ static bool add_outline(level_t *level, const yb_isoline_t *line, bool turned, d
             yb_outline_free(&outline);
             return false;
         }
+        memset(grown + level->count, 0, (size_t)(room - level->count) * sizeof(*grown));
         level->outline = grown;
         level->room = room;
     }

@@ -120,7 +120,7 @@ bool yb_outline_make(yb_outline_t *outline, const yb_isoline_t *line, bool turne
     if (line->closed)
         turned = twice_area(line->point, line->count) < 0;
     size_t room = line->count + (line->closed ? 0 : YB_REGION_FRAME_POINTS);
-    outline->point = malloc(room * sizeof(*outline->point));
+    outline->point = malloc((room + 1) * sizeof(*outline->point));
     outline->at = malloc((line->count + 1) * sizeof(*outline->at));
     bool good = outline->point != NULL && outline->at != NULL && line->count > 1;
     if (good) {

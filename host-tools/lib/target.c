@@ -97,8 +97,9 @@ static bool choose_levels(loop_t *loop, yb_error_t *error)
                             "an interval of %g m makes no level or more than %d of them between "
                             "%.6g m and %.6g m: choose another one",
                             task->interval_m, YB_ENCODE_MOST_LEVELS, low_m, high_m);
-    for (; first <= last; first++)
-        loop->level_m[loop->levels++] = first * task->interval_m;
+    loop->levels = (int)(last - first) + 1;
+    for (int i = 0; i < loop->levels; i++)
+        loop->level_m[i] = (first + i) * task->interval_m;
     return true;
 }
 

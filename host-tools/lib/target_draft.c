@@ -30,7 +30,8 @@ int yb_target_draft_spacing(const yb_target_draft_t *draft, int wanted)
         int spacing = wanted + (i % 2 == 0 ? -i / 2 : i / 2 + 1); /* wanted, + 1, - 1, + 2 … */
         if (spacing < 1 || spacing > MOST_SPACING || (paper && (8 % spacing) != 0))
             continue;
-        double steps = shortest_m / longest_m * (MOST_STEPS / spacing);
+        int longest = MOST_STEPS / spacing;
+        double steps = shortest_m / longest_m * longest;
         double bent = fabs(round(steps) / steps - 1);
         if (bent < least) {
             least = bent;
@@ -111,8 +112,8 @@ void yb_target_draft_lines(const yb_target_search_t *search, yb_paper_t *paper, 
         if (search->levels > 0)
             height_m = search->level_m[(int)(share * search->levels)];
         yb_paper_t before = *paper;
-        for (double finer = 1; finer > 0.2; finer /= 2) {
-            if (yb_target_add_line(&mover, height_m, finer * tolerance * side, false))
+        for (int halvings = 0; halvings < 3; halvings++) {
+            if (yb_target_add_line(&mover, height_m, ldexp(tolerance * side, -halvings), false))
                 break;
             *paper = before;
         }
