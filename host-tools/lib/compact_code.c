@@ -124,28 +124,27 @@ static void put_difference(coder_t *coder, int model, int down, int value)
         put_bit(coder, down, value < 0);
 }
 
-uint16_t yb_compact_cell(double metres)
+/* Metres as a mantissa from `least` to `most` and an exponent, in 1/64 m. */
+static uint16_t nearest_unit(double metres, int least, int most, int most_exponent)
 {
     double scaled = metres * 64;
     int exponent = 0;
-    while (exponent < 14 && scaled >= 511.5) {
+    while (exponent < most_exponent && scaled >= most + 0.5) {
         scaled /= 2;
         exponent++;
     }
-    long mantissa = lround(fmin(fmax(scaled, 1), 511));
+    long mantissa = lround(fmin(fmax(scaled, least), most));
     return (uint16_t)((unsigned)exponent << 12 | (unsigned)mantissa);
+}
+
+uint16_t yb_compact_cell(double metres)
+{
+    return nearest_unit(metres, 1, 511, 14);
 }
 
 uint16_t yb_compact_unit(double metres)
 {
-    double scaled = metres * 64;
-    int exponent = 0;
-    while (exponent < 15 && scaled >= 31.5) {
-        scaled /= 2;
-        exponent++;
-    }
-    long mantissa = lround(fmin(fmax(scaled, 16), 31));
-    return (uint16_t)((unsigned)exponent << 12 | (unsigned)mantissa);
+    return nearest_unit(metres, 16, 31, 15);
 }
 
 static int gain_value(int coded)
