@@ -531,6 +531,9 @@ static int run(request_t *request)
 
 static int check_request(request_t *request)
 {
+    if (request->target_k > 0 &&
+        (yb_sections_size(&request->sections) > 0 || request->task.vertices > 0))
+        return cli_usage("--target-k does not go with --name, --place, --certify and --vertices");
     if (request->task.levels > 0 && request->task.interval_m > 0)
         return cli_usage("--levels and --interval exclude each other");
     if (request->json && strcmp(request->output, "-") == 0)

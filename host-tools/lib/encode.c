@@ -16,7 +16,6 @@
 
 enum {
     FREE_LEVELS = 6,       /* drafts have 1 to so many levels when their heights are free */
-    MEASURED_LEVELS = 9,   /* for the fractal dimension */
     USUAL_TRIALS = 224000, /* at effort 5; each step is three times as many */
     FEW_BYTES = 40,        /* below that, corner heights cost too much to begin with */
     DRAFTS = 4,            /* one for each spacing of the lattice */
@@ -162,14 +161,7 @@ static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing
             (uint8_t)yb_compact_vertex_class(task->vertices > 0 ? task->vertices : 255);
         choose_unit(encoder, paper);
     }
-    const double corner[YB_CORNERS][2] = {{0, 0}, {width, 0}, {width, depth}, {0, depth}};
-    double sum = 0;
-    for (int i = 0; i < YB_CORNERS; i++) {
-        double height = yb_grid_height(grid, corner[i][0], corner[i][1]);
-        paper->corner[i] = yb_paper_height(paper, height);
-        sum += height;
-    }
-    paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
+    yb_sketch_corners(paper, grid);
     paper->corners = task->most_bytes >= FEW_BYTES ? 0xf : 0;
 }
 
@@ -360,14 +352,11 @@ static bool measure_dimension(const encoder_t *encoder, double *dimension, yb_er
         *dimension = yb_fractal_boxes(encoder->given, encoder->grid->cell_m);
         return true;
     }
-    double level_m[MEASURED_LEVELS];
-    for (int i = 0; i < MEASURED_LEVELS; i++)
-        level_m[i] = yb_sketch_quantile(encoder->grid, (i + 1.0) / (MEASURED_LEVELS + 1));
-    yb_lines_t *lines = yb_lines_from_grid(encoder->grid, level_m, MEASURED_LEVELS, error);
-    if (lines == NULL)
+    yb_fractal_report_t report;
+    if (!yb_fractal_of_grid(encoder->grid, &report, error))
         return false;
-    *dimension = yb_fractal_boxes(lines, encoder->grid->cell_m);
-    yb_lines_free(lines);
+    *dimension = report.dimension;
+    yb_fractal_free(&report);
     return true;
 }
 

@@ -120,14 +120,25 @@ static bool slide_end(state_t *state, yb_step_t *at)
     return move != 0;
 }
 
+/* One of all points, its contour, and that one's first point. False: there is none. */
+static bool random_point(state_t *state, int *point, int *contour, int *first)
+{
+    if (state->next.point_count == 0)
+        return false;
+    *point = random_below(state, state->next.point_count);
+    *contour = contour_of(&state->next, *point);
+    *first = yb_paper_first(&state->next, *contour);
+    return true;
+}
+
 static bool change_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    if (paper->point_count == 0)
+    int point = 0;
+    int contour = 0;
+    int first = 0;
+    if (!random_point(state, &point, &contour, &first))
         return false;
-    int point = random_below(state, paper->point_count);
-    int contour = contour_of(paper, point);
-    int first = yb_paper_first(paper, contour);
     yb_step_t *at = &paper->point[point];
     if (is_frame_end(paper, contour, first, point))
         return slide_end(state, at);
@@ -245,11 +256,11 @@ static bool toggle_corner(state_t *state)
 static bool add_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    if (paper->point_count == 0)
+    int point = 0;
+    int contour = 0;
+    int first = 0;
+    if (!random_point(state, &point, &contour, &first))
         return false;
-    int point = random_below(state, paper->point_count);
-    int contour = contour_of(paper, point);
-    int first = yb_paper_first(paper, contour);
     int count = paper->contour[contour].count;
     bool last = point == first + count - 1;
     if (count == 1 || (last && paper->contour[contour].open))
@@ -271,11 +282,11 @@ static bool add_point(state_t *state)
 static bool remove_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    if (paper->point_count == 0)
+    int point = 0;
+    int contour = 0;
+    int first = 0;
+    if (!random_point(state, &point, &contour, &first))
         return false;
-    int point = random_below(state, paper->point_count);
-    int contour = contour_of(paper, point);
-    int first = yb_paper_first(paper, contour);
     if (is_frame_end(paper, contour, first, point))
         return false;
     if (paper->contour[contour].count <= 3 && !paper->contour[contour].open)
@@ -409,11 +420,11 @@ static bool transfer_crossing(state_t *state)
 static bool detach_point(state_t *state)
 {
     yb_paper_t *paper = &state->next;
-    if (paper->point_count == 0)
+    int point = 0;
+    int contour = 0;
+    int first = 0;
+    if (!random_point(state, &point, &contour, &first))
         return false;
-    int point = random_below(state, paper->point_count);
-    int contour = contour_of(paper, point);
-    int first = yb_paper_first(paper, contour);
     int count = paper->contour[contour].count;
     if (count < 3 || (count == 3 && !paper->contour[contour].open) ||
         is_frame_end(paper, contour, first, point))

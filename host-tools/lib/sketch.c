@@ -36,6 +36,20 @@ void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double l
     paper->frame = yb_paper_height(paper, low_m);
 }
 
+void yb_sketch_corners(yb_paper_t *paper, const yb_grid_t *grid)
+{
+    double width_m = yb_grid_width_m(grid);
+    double depth_m = yb_grid_depth_m(grid);
+    const double corner_m[YB_CORNERS][2] = {{0, 0}, {width_m, 0}, {width_m, depth_m}, {0, depth_m}};
+    double sum = 0;
+    for (int i = 0; i < YB_CORNERS; i++) {
+        double height_m = yb_grid_height(grid, corner_m[i][0], corner_m[i][1]);
+        paper->corner[i] = yb_paper_height(paper, height_m);
+        sum += height_m;
+    }
+    paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
+}
+
 bool yb_sketch_spot(yb_paper_t *paper, const yb_lines_t *frame, yb_place_t at, double height_m,
                     size_t most_bytes)
 {

@@ -15,6 +15,9 @@
 void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double low_m, double high_m,
                      int spacing);
 
+/* Gives the corners the grid's heights, and the frame their mean. */
+void yb_sketch_corners(yb_paper_t *paper, const yb_grid_t *grid);
+
 /* Adds a spot height at a place of the frame, moved strictly inside. False: no room or taken. */
 bool yb_sketch_spot(yb_paper_t *paper, const yb_lines_t *frame, yb_place_t at, double height_m,
                     size_t most_bytes);

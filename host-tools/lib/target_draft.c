@@ -84,14 +84,7 @@ bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_paper_t *paper, in
         paper->gain = yb_compact_gain(START_GAIN);
         paper->dimension = yb_compact_dimension(paper->dimension);
     }
-    const double corner_m[YB_CORNERS][2] = {{0, 0}, {width_m, 0}, {width_m, depth_m}, {0, depth_m}};
-    double sum = 0;
-    for (int i = 0; i < YB_CORNERS; i++) {
-        double height_m = yb_grid_height(grid, corner_m[i][0], corner_m[i][1]);
-        paper->corner[i] = yb_paper_height(paper, height_m);
-        sum += height_m;
-    }
-    paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
+    yb_sketch_corners(paper, grid);
     paper->corners = 0xf;
     yb_lines_t frame = {.width_m = width_m, .depth_m = depth_m};
     return yb_sketch_spot(paper, &frame, yb_sketch_summit(grid), (double)grid->high_m,

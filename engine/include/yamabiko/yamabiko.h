@@ -15,7 +15,7 @@
  * Memory. The engine allocates nothing, keeps no globals, never recurses and uses no floating
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (4.9 KB with 255 vertices)
- *   yb_load_t   working memory of decoding: until YB_OK           (5.9 KB)
+ *   yb_load_t   working memory of decoding: until YB_OK           (8.5 KB)
  *   yb_frame_t  working memory of drawing: one frame at a time    (6.3 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
  *

@@ -79,6 +79,7 @@ static void test_bad_usage(void **state)
     expect_failure(dem, "--seed 256", 2, "from 0 to 127");
     expect_failure(dem, "--target-k 1.5", 2, "above 0, at most 1");
     expect_failure(dem, "--target-k alike", 2, "above 0, at most 1");
+    expect_failure(dem, "--target-k 0.8 --name Fuji", 2, "does not go with");
     expect_failure(dem, "--window 1 2 3", 2, "four numbers");
     expect_failure(dem, "--window 5 0 1 1", 2, "is empty");
     expect_failure(dem, "--center 200 0", 2, "longitude");
