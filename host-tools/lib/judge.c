@@ -9,7 +9,7 @@
 /* What a difference of rise from one sample to the next counts against one of height: enough to
  * keep the search from hiding cliffs where few samples see them.
  */
-static const double slope_weight = 0.5;
+static const float slope_weight = 0.5F;
 /* Share of the samples that the highest place counts as: it is what people look at first. */
 static const double summit_weight = 0.01;
 
@@ -34,6 +34,8 @@ struct yb_judge {
     float base_m;
     double summit_east, summit_north; /* its place as shares of the frame */
     double summit_m;
+    int summit_x_q8, summit_y_q8;
+    float summit_found_m;
     yb_map_t map;
     yb_load_t load;
 };
@@ -65,14 +67,6 @@ yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side)
                 (float)yb_grid_height(grid, column * judge->width_m / (judge->across.count - 1),
                                       row * judge->depth_m / (judge->up.count - 1));
     return judge;
-}
-
-static double summit_error_m(const yb_judge_t *judge)
-{
-    const yb_map_t *map = &judge->map;
-    int32_t z_q8 = yb_map_height(map, (uint16_t)lround(judge->summit_east * map->east_q8),
-                                 (uint16_t)lround(judge->summit_north * map->north_q8));
-    return (double)judge->base_m + (double)judge->metres_per_q8 * z_q8 - judge->summit_m;
 }
 
 void yb_judge_free(yb_judge_t *judge)
@@ -126,10 +120,38 @@ static float middle_of(const yb_judge_t *judge, const yb_vertex_t *a, const yb_v
     return middle + (float)bulge / (4 * 2048);
 }
 
-/* Writes the heights of the smooth surface over a base triangle at the samples in it, borders
- * included. It is one quadratic there: a Bezier triangle, whose middle control points are the
- * middles of the edges with twice the bulge that refinement gives them.
+/* The smooth surface over a base triangle. It is one quadratic there: a Bezier triangle, whose
+ * middle control points are the middles of the edges with twice the bulge that refinement gives
+ * them.
  */
+typedef struct {
+    const yb_vertex_t *a, *b, *c;
+    float ab, bc, ca; /* control points */
+    int64_t area;     /* twice, in q16 */
+    float whole;      /* one over it */
+} patch_t;
+
+/* Its height at a place, in q8. False: the place is not in the triangle, borders included. */
+static bool height_at(const patch_t *patch, int x_q8, int y_q8, float *z_q8)
+{
+    const yb_vertex_t *a = patch->a;
+    const yb_vertex_t *b = patch->b;
+    const yb_vertex_t *c = patch->c;
+    int x = x_q8 - a->x_q8;
+    int y = y_q8 - a->y_q8;
+    int64_t of_b = (int64_t)x * (c->y_q8 - a->y_q8) - (int64_t)y * (c->x_q8 - a->x_q8);
+    int64_t of_c = (int64_t)y * (b->x_q8 - a->x_q8) - (int64_t)x * (b->y_q8 - a->y_q8);
+    if (of_b < 0 || of_c < 0 || of_b + of_c > patch->area)
+        return false;
+    float v = (float)of_b * patch->whole;
+    float w = (float)of_c * patch->whole;
+    float u = 1 - v - w;
+    *z_q8 = u * u * (float)a->z_q8 + v * v * (float)b->z_q8 + w * w * (float)c->z_q8 +
+            2 * (u * v * patch->ab + v * w * patch->bc + w * u * patch->ca);
+    return true;
+}
+
+/* Writes the heights over a base triangle at the samples in it, and at the summit. */
 static void sample_triangle(yb_judge_t *judge, const yb_vertex_t *a, const yb_vertex_t *b,
                             const yb_vertex_t *c)
 {
@@ -138,41 +160,63 @@ static void sample_triangle(yb_judge_t *judge, const yb_vertex_t *a, const yb_ve
     int east = greatest(a->x_q8, b->x_q8, c->x_q8);
     int north = greatest(a->y_q8, b->y_q8, c->y_q8);
     int first = across->from[least(a->x_q8, b->x_q8, c->x_q8) >> 8];
-    int row = up->from[least(a->y_q8, b->y_q8, c->y_q8) >> 8];
     int64_t area = (int64_t)(b->x_q8 - a->x_q8) * (c->y_q8 - a->y_q8) -
                    (int64_t)(b->y_q8 - a->y_q8) * (c->x_q8 - a->x_q8);
-    float whole = 1 / (float)area;
-    /* Shares of a, b and c, and what they change by from sample to sample of a row. */
-    float ab = middle_of(judge, a, b);
-    float bc = middle_of(judge, b, c);
-    float ca = middle_of(judge, c, a);
-    for (; row < up->count && up->at_q8[row] <= north; row++) {
-        int y = up->at_q8[row] - a->y_q8;
+    const patch_t patch = {.a = a,
+                           .b = b,
+                           .c = c,
+                           .ab = middle_of(judge, a, b),
+                           .bc = middle_of(judge, b, c),
+                           .ca = middle_of(judge, c, a),
+                           .area = area,
+                           .whole = 1 / (float)area};
+    float z_q8 = 0;
+    for (int row = up->from[least(a->y_q8, b->y_q8, c->y_q8) >> 8];
+         row < up->count && up->at_q8[row] <= north; row++) {
         for (int column = first; column < across->count && across->at_q8[column] <= east;
              column++) {
-            int x = across->at_q8[column] - a->x_q8;
-            int64_t of_b = (int64_t)x * (c->y_q8 - a->y_q8) - (int64_t)y * (c->x_q8 - a->x_q8);
-            int64_t of_c = (int64_t)y * (b->x_q8 - a->x_q8) - (int64_t)x * (b->y_q8 - a->y_q8);
-            if (of_b < 0 || of_c < 0 || of_b + of_c > area)
-                continue;
-            float v = (float)of_b * whole;
-            float w = (float)of_c * whole;
-            float u = 1 - v - w;
-            float z_q8 = u * u * (float)a->z_q8 + v * v * (float)b->z_q8 + w * w * (float)c->z_q8 +
-                         2 * (u * v * ab + v * w * bc + w * u * ca);
-            judge->found_m[row * across->count + column] =
-                judge->base_m + z_q8 * judge->metres_per_q8;
+            if (height_at(&patch, across->at_q8[column], up->at_q8[row], &z_q8))
+                judge->found_m[row * across->count + column] =
+                    judge->base_m + z_q8 * judge->metres_per_q8;
         }
     }
+    if (height_at(&patch, judge->summit_x_q8, judge->summit_y_q8, &z_q8))
+        judge->summit_found_m = judge->base_m + z_q8 * judge->metres_per_q8;
+}
+
+/* What the differences at the samples add up to. Column by column, so that the compiler may take
+ * several columns at once.
+ */
+static double sum_squares(const yb_judge_t *judge)
+{
+    int columns = judge->across.count;
+    float sum[MOST_SIDE] = {0};
+    for (int row = 0; row < judge->up.count; row++) {
+        const float *off = &judge->found_m[row * columns];
+        const float *north = row + 1 < judge->up.count ? off + columns : off;
+        for (int i = 0; i < columns - 1; i++) {
+            float east_rise = off[i + 1] - off[i];
+            float north_rise = north[i] - off[i];
+            sum[i] += off[i] * off[i] +
+                      slope_weight * (east_rise * east_rise + north_rise * north_rise);
+        }
+        float rise = north[columns - 1] - off[columns - 1];
+        sum[columns - 1] += off[columns - 1] * off[columns - 1] + slope_weight * rise * rise;
+    }
+    double all = 0;
+    for (int i = 0; i < columns; i++)
+        all += (double)sum[i];
+    return all;
 }
 
 double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
 {
     if (yb_map_load(&judge->map, &judge->load, code, size) != YB_OK)
         return -1;
-    judge->map.detail = false;
     judge->metres_per_q8 = (float)(yb_paper_metres(judge->map.cell) / 256);
     judge->base_m = judge->map.base_m;
+    judge->summit_x_q8 = (int)lround(judge->summit_east * judge->map.east_q8);
+    judge->summit_y_q8 = (int)lround(judge->summit_north * judge->map.north_q8);
     lay_axis(&judge->across, judge->map.east_q8 >> 8);
     lay_axis(&judge->up, judge->map.north_q8 >> 8);
     const yb_vertex_t *vertex = judge->map.vertex;
@@ -180,21 +224,11 @@ double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
         const yb_index_t *corner = judge->map.triangle[i];
         sample_triangle(judge, &vertex[corner[0]], &vertex[corner[1]], &vertex[corner[2]]);
     }
-    int columns = judge->across.count;
-    int samples = columns * judge->up.count;
+    int samples = judge->across.count * judge->up.count;
     for (int i = 0; i < samples; i++)
         judge->found_m[i] -= judge->truth_m[i];
-    const float *off = judge->found_m;
-    double heights = 0;
-    double slopes = 0;
-    for (int i = 0; i < samples; i++) {
-        float east = i % columns == columns - 1 ? 0 : off[i + 1] - off[i];
-        float north = i + columns >= samples ? 0 : off[i + columns] - off[i];
-        heights += (double)(off[i] * off[i]);
-        slopes += (double)(east * east + north * north);
-    }
-    double summit = summit_error_m(judge);
-    return sqrt((heights + slope_weight * slopes) / samples + summit_weight * summit * summit);
+    double summit = (double)judge->summit_found_m - judge->summit_m;
+    return sqrt(sum_squares(judge) / samples + summit_weight * summit * summit);
 }
 
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m)
