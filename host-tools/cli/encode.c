@@ -16,7 +16,6 @@
 #include "line_crossings.h"
 #include "line_grid.h"
 #include "output.h"
-#include "paper_code.h"
 #include "part.h"
 #include "scan.h"
 #include "target.h"
@@ -287,7 +286,7 @@ static json_t *json_levels(const yb_code_file_t *code)
         if (contour->count == 1)
             continue;
         double z_q8 = code->map.vertex[contour->first].z_q8;
-        double height_m = code->map.base_m + z_q8 * yb_paper_metres(code->map.cell) / 256;
+        double height_m = code->map.base_m + z_q8 * yb_unit_m(code->map.cell) / 256;
         json_array_append_new(levels, json_real(round(height_m * 10) / 10));
     }
     return levels;

@@ -10,7 +10,7 @@
 
 #include "code_file.h"
 #include "compact_code.h"
-#include "paper_code.h"
+#include "contour_code.h"
 #include "part.h"
 
 enum {
@@ -124,14 +124,14 @@ static void find_paper_budget(info_t *info)
 static void find_compact_budget(info_t *info)
 {
     budget_t *budget = &info->budget;
-    yb_paper_t *draft = malloc(sizeof(*draft));
-    uint8_t code[YB_PAPER_MOST_BYTES];
+    yb_contour_set_t *set = malloc(sizeof(*set));
+    uint8_t code[YB_CONTOUR_CODE_BYTES];
     yb_bits_t bits = {.by_kind = true};
-    if (draft != NULL) {
-        yb_compact_read(info->file, draft);
-        (void)yb_compact_write(draft, code, sizeof(code), &bits);
+    if (set != NULL) {
+        yb_compact_read(info->file, set);
+        (void)yb_compact_write(set, code, sizeof(code), &bits);
     }
-    free(draft);
+    free(set);
     spend(budget, "version", "version", 8);
     spend(budget, "header", "header", bits.of[YB_BITS_HEADER]);
     spend(budget, "frame heights", "frame_heights", bits.of[YB_BITS_FRAME]);
@@ -191,8 +191,8 @@ static void gather(info_t *info, const char *name, const yb_code_file_t *file)
     memset(info, 0, sizeof(*info));
     info->name = name;
     info->file = file;
-    info->cell_m = yb_paper_metres(file->map.cell);
-    info->unit_m = yb_paper_metres(file->map.unit);
+    info->cell_m = yb_unit_m(file->map.cell);
+    info->unit_m = yb_unit_m(file->map.unit);
     for (int i = 0; i < file->load.contour_count; i++) {
         info->points += file->load.contour[i].count;
         info->spots += file->load.contour[i].count == 1;

@@ -38,8 +38,6 @@ static void spend(coder_t *coder, double share)
         coder->bits->of[coder->kind] -= log2(share);
 }
 
-#include <stdio.h>
-static bool dump;
 static void add(coder_t *coder, uint32_t value)
 {
     size_t at = coder->size;
@@ -74,8 +72,6 @@ static void put_bit(coder_t *coder, int model, int bit)
 {
     uint32_t range = coder->range;
     uint32_t bound = model_bound(coder->model[model], range);
-    if (dump)
-        fprintf(stderr, "D %d %d\n", model, bit);
     coder->model[model] = model_learn(coder->model[model], bit);
     spend(coder, (double)(bit != 0 ? range - bound : bound) / range);
     if (bit != 0)
@@ -172,21 +168,21 @@ uint8_t yb_compact_dimension(uint8_t dimension)
     return (uint8_t)(8 * (eighth > 31 ? 31 : eighth));
 }
 
-static int columns_of(const yb_paper_t *paper)
+static int columns_of(const yb_contour_set_t *set)
 {
-    return paper->east / paper->spacing;
+    return set->east / set->spacing;
 }
 
-static int rows_of(const yb_paper_t *paper)
+static int rows_of(const yb_contour_set_t *set)
 {
-    return paper->north / paper->spacing;
+    return set->north / set->spacing;
 }
 
-static void put_shape(coder_t *coder, const yb_paper_t *paper)
+static void put_shape(coder_t *coder, const yb_contour_set_t *set)
 {
-    int most = 255 / paper->spacing;
-    int columns = columns_of(paper);
-    int rows = rows_of(paper);
+    int most = 255 / set->spacing;
+    int columns = columns_of(set);
+    int rows = rows_of(set);
     if (fix_max(columns, rows) != most)
         coder->failed = true;
     put_bit(coder, MODEL_OBLONG, rows != columns);
@@ -207,42 +203,41 @@ int yb_compact_vertex_class(int vertices)
 }
 
 /* The base is the height of the first line, or of the frame. */
-static int zero_of(const yb_paper_t *paper)
+static int zero_of(const yb_contour_set_t *set)
 {
-    for (int i = 0; i < paper->contour_count; i++)
-        if (paper->contour[i].count > 1)
-            return paper->contour[i].height;
-    return paper->frame;
+    for (int i = 0; i < set->contour_count; i++)
+        if (set->contour[i].count > 1)
+            return set->contour[i].height;
+    return set->frame;
 }
 
-static void put_header(coder_t *coder, const yb_paper_t *paper)
+static void put_header(coder_t *coder, const yb_contour_set_t *set)
 {
-    int base = paper->base + zero_of(paper);
-    int exponent = paper->cell >> 12;
-    int mantissa = paper->cell & 0xfff;
+    int base = set->base + zero_of(set);
+    int exponent = set->cell >> 12;
+    int mantissa = set->cell & 0xfff;
     bool small = exponent == 0 && mantissa < 256;
     put_uniform(coder, small ? 0 : exponent + 1, 16);
     put_uniform(coder, small ? mantissa : mantissa - 256, 256);
-    put_uniform(coder, paper->spacing - 1, 16);
-    put_shape(coder, paper);
-    put_uniform(coder, paper->unit >> 12, 16);
-    put_uniform(coder, (paper->unit & 0xfff) - 16, 16);
-    put_bit(coder, MODEL_COARSE, paper->interval > 0);
-    if (paper->interval > 0)
-        put_uniform(coder, paper->interval - 1, 3);
+    put_uniform(coder, set->spacing - 1, 16);
+    put_shape(coder, set);
+    put_uniform(coder, set->unit >> 12, 16);
+    put_uniform(coder, (set->unit & 0xfff) - 16, 16);
+    put_bit(coder, MODEL_COARSE, set->interval > 0);
+    if (set->interval > 0)
+        put_uniform(coder, set->interval - 1, 3);
     put_number(coder, MODEL_BASE, abs(base));
     if (base != 0)
         put_uniform(coder, base < 0, 2);
-    put_uniform(coder, paper->dimension / 8, 32);
-    put_uniform(coder, coded_gain(paper->gain), 16);
-    put_bit(coder, MODEL_STRAIGHT, paper->straight);
-    put_uniform(
-        coder, paper->vertices > 0 ? yb_compact_vertex_class(paper->vertices) : paper->vertex_class,
-        16);
+    put_uniform(coder, set->dimension / 8, 32);
+    put_uniform(coder, coded_gain(set->gain), 16);
+    put_bit(coder, MODEL_STRAIGHT, set->straight);
+    put_uniform(coder,
+                set->vertices > 0 ? yb_compact_vertex_class(set->vertices) : set->vertex_class, 16);
 }
 
 /* Height of the point nearest to (x, y), in steps, of those written: the first `lines` contours
- * that are lines in the draft's order, then spot heights in the order given.
+ * that are lines in the set's order, then spot heights in the order given.
  */
 typedef struct {
     int x, y, height;
@@ -276,10 +271,10 @@ static void know(known_points_t *known, yb_step_t at, int height)
 }
 
 /* Lattice steps along the frame, counter-clockwise from the south-west. */
-static int way_of(const yb_paper_t *paper, int x, int y)
+static int way_of(const yb_contour_set_t *set, int x, int y)
 {
-    int east = columns_of(paper);
-    int north = rows_of(paper);
+    int east = columns_of(set);
+    int north = rows_of(set);
     if (y == 0)
         return x;
     if (x == east)
@@ -289,11 +284,11 @@ static int way_of(const yb_paper_t *paper, int x, int y)
     return 2 * (east + north) - y;
 }
 
-static yb_ring_t inward(const yb_paper_t *paper, int x, int y)
+static yb_ring_t inward(const yb_contour_set_t *set, int x, int y)
 {
-    int way = way_of(paper, x, y);
-    int east = columns_of(paper);
-    int north = rows_of(paper);
+    int way = way_of(set, x, y);
+    int east = columns_of(set);
+    int north = rows_of(set);
     int place = way < east ? 2 : way < east + north ? 4 : way < 2 * east + north ? 6 : 0;
     return (yb_ring_t){1, (int16_t)place};
 }
@@ -355,12 +350,12 @@ static double step_price(const coder_t *coder, const pen_t *pen, int dx, int dy)
 /* An open line ends where it would leave the map, so its last step may go beyond: by what is
  * cheapest.
  */
-static void put_last_step(coder_t *coder, const yb_paper_t *paper, pen_t *pen, int dx, int dy)
+static void put_last_step(coder_t *coder, const yb_contour_set_t *set, pen_t *pen, int dx, int dy)
 {
     int x = pen->x + dx;
     int y = pen->y + dy;
-    int out_x = x == 0 ? -1 : x == columns_of(paper) ? 1 : 0;
-    int out_y = y == 0 ? -1 : y == rows_of(paper) ? 1 : 0;
+    int out_x = x == 0 ? -1 : x == columns_of(set) ? 1 : 0;
+    int out_y = y == 0 ? -1 : y == rows_of(set) ? 1 : 0;
     int best = 0;
     double least = step_price(coder, pen, dx, dy);
     for (int beyond = 1; beyond <= MOST_BEYOND; beyond++) {
@@ -377,7 +372,7 @@ typedef struct {
     int x, y, way; /* of the line before */
 } starts_t;
 
-static void put_start(coder_t *coder, const yb_paper_t *paper, pen_t *pen, starts_t *starts,
+static void put_start(coder_t *coder, const yb_contour_set_t *set, pen_t *pen, starts_t *starts,
                       bool open)
 {
     coder->kind = YB_BITS_STARTS;
@@ -390,35 +385,35 @@ static void put_start(coder_t *coder, const yb_paper_t *paper, pen_t *pen, start
         starts->y = pen->y;
         return;
     }
-    int round = 2 * (columns_of(paper) + rows_of(paper));
-    int way = way_of(paper, pen->x, pen->y);
+    int round = 2 * (columns_of(set) + rows_of(set));
+    int way = way_of(set, pen->x, pen->y);
     int ahead = (way - starts->way + round) % round;
     put_signed(coder, MODEL_WAY, ahead > round / 2 ? ahead - round : ahead);
     starts->way = way;
-    pen->last = inward(paper, pen->x, pen->y);
+    pen->last = inward(set, pen->x, pen->y);
     pen->turn_context = TURN_INWARD;
 }
 
-static void put_line(coder_t *coder, const yb_paper_t *paper, int contour, int first,
+static void put_line(coder_t *coder, const yb_contour_set_t *set, int contour, int first,
                      starts_t *starts, known_points_t *known)
 {
-    const yb_paper_contour_t *line = &paper->contour[contour];
-    const yb_step_t *point = &paper->point[first];
-    int spacing = paper->spacing;
+    const yb_coded_contour_t *line = &set->contour[contour];
+    const yb_step_t *point = &set->point[first];
+    int spacing = set->spacing;
     pen_t pen = {.x = point->x / spacing, .y = point->y / spacing};
     int start_x = pen.x;
     int start_y = pen.y;
-    put_start(coder, paper, &pen, starts, line->open);
+    put_start(coder, set, &pen, starts, line->open);
     int off = (int)line->height - height_near(known, point->x, point->y);
-    if (off % (1 << paper->interval) != 0)
+    if (off % (1 << set->interval) != 0)
         coder->failed = true;
     coder->kind = YB_BITS_HEIGHTS;
-    put_difference(coder, MODEL_LINE_HEIGHT, MODEL_LINE_DOWN, off / (1 << paper->interval));
+    put_difference(coder, MODEL_LINE_HEIGHT, MODEL_LINE_DOWN, off / (1 << set->interval));
     for (int i = 1; i < line->count && !coder->failed; i++) {
         int dx = point[i].x / spacing - pen.x;
         int dy = point[i].y / spacing - pen.y;
         if (line->open && i == line->count - 1 && (dx != 0 || dy != 0))
-            put_last_step(coder, paper, &pen, dx, dy);
+            put_last_step(coder, set, &pen, dx, dy);
         else
             put_step(coder, &pen, dx, dy);
         int away = fix_max(abs(pen.x - start_x), abs(pen.y - start_y));
@@ -430,21 +425,21 @@ static void put_line(coder_t *coder, const yb_paper_t *paper, int contour, int f
         know(known, point[i], line->height);
 }
 
-static void put_corners(coder_t *coder, const yb_paper_t *paper, const known_points_t *known)
+static void put_corners(coder_t *coder, const yb_contour_set_t *set, const known_points_t *known)
 {
     coder->kind = YB_BITS_FRAME;
     for (int i = 0; i < YB_CORNERS; i++) {
-        int coded = paper->corners >> i & 1;
+        int coded = set->corners >> i & 1;
         put_bit(coder, MODEL_CORNER, coded);
-        int x = i == 1 || i == 2 ? paper->east : 0;
-        int y = i >= 2 ? paper->north : 0;
+        int x = i == 1 || i == 2 ? set->east : 0;
+        int y = i >= 2 ? set->north : 0;
         if (coded != 0)
             put_difference(coder, MODEL_CORNER_HEIGHT, MODEL_CORNER_DOWN,
-                           (int)paper->corner[i] - height_near(known, x, y));
+                           (int)set->corner[i] - height_near(known, x, y));
     }
-    if (paper->corners == 0)
+    if (set->corners == 0)
         put_difference(coder, MODEL_CORNER_HEIGHT, MODEL_CORNER_DOWN,
-                       (int)paper->frame - height_near(known, 0, 0));
+                       (int)set->frame - height_near(known, 0, 0));
 }
 
 static int by_row(const void *a, const void *b)
@@ -462,17 +457,17 @@ static void put_gap(coder_t *coder, int gap, int run)
     put_uniform(coder, gap, run);
 }
 
-static void put_spots(coder_t *coder, const yb_paper_t *paper, known_t *spot, int count,
+static void put_spots(coder_t *coder, const yb_contour_set_t *set, known_t *spot, int count,
                       known_points_t *known)
 {
-    int columns = columns_of(paper) - 1;
-    int points = columns * (rows_of(paper) - 1);
+    int columns = columns_of(set) - 1;
+    int points = columns * (rows_of(set) - 1);
     int next = 0;
     qsort(spot, (size_t)count, sizeof(*spot), by_row);
     coder->kind = YB_BITS_SPOT_PLACES;
     put_number(coder, MODEL_SPOTS, count);
     for (int i = 0; i < count && !coder->failed; i++) {
-        int cell = spot[i].x / paper->spacing - 1 + columns * (spot[i].y / paper->spacing - 1);
+        int cell = spot[i].x / set->spacing - 1 + columns * (spot[i].y / set->spacing - 1);
         if (cell < next || cell >= points) {
             coder->failed = true;
             return;
@@ -487,32 +482,32 @@ static void put_spots(coder_t *coder, const yb_paper_t *paper, known_t *spot, in
     }
 }
 
-static void put_contours(coder_t *coder, const yb_paper_t *paper)
+static void put_contours(coder_t *coder, const yb_contour_set_t *set)
 {
-    known_t point[YB_PAPER_POINTS];
-    known_t spot[YB_PAPER_POINTS];
-    known_points_t known = {.point = point, .zero = zero_of(paper)};
-    starts_t starts = {.x = columns_of(paper) / 2, .y = rows_of(paper) / 2};
+    known_t point[YB_SET_POINTS];
+    known_t spot[YB_SET_POINTS];
+    known_points_t known = {.point = point, .zero = zero_of(set)};
+    starts_t starts = {.x = columns_of(set) / 2, .y = rows_of(set) / 2};
     int spots = 0;
     int first = 0;
-    for (int i = 0; i < paper->contour_count; first += paper->contour[i++].count)
-        if (paper->contour[i].count == 1)
+    for (int i = 0; i < set->contour_count; first += set->contour[i++].count)
+        if (set->contour[i].count == 1)
             spot[spots++] =
-                (known_t){paper->point[first].x, paper->point[first].y, paper->contour[i].height};
+                (known_t){set->point[first].x, set->point[first].y, set->contour[i].height};
     coder->kind = YB_BITS_STARTS;
-    put_number(coder, MODEL_LINES, paper->contour_count - spots);
+    put_number(coder, MODEL_LINES, set->contour_count - spots);
     first = 0;
-    for (int i = 0; i < paper->contour_count; first += paper->contour[i++].count)
-        if (paper->contour[i].count > 1)
-            put_line(coder, paper, i, first, &starts, &known);
-    put_corners(coder, paper, &known);
-    put_spots(coder, paper, spot, spots, &known);
+    for (int i = 0; i < set->contour_count; first += set->contour[i++].count)
+        if (set->contour[i].count > 1)
+            put_line(coder, set, i, first, &starts, &known);
+    put_corners(coder, set, &known);
+    put_spots(coder, set, spot, spots, &known);
 }
 
-static bool on_lattice(const yb_paper_t *paper)
+static bool on_lattice(const yb_contour_set_t *set)
 {
-    for (int i = 0; i < paper->point_count; i++)
-        if (paper->point[i].x % paper->spacing != 0 || paper->point[i].y % paper->spacing != 0)
+    for (int i = 0; i < set->point_count; i++)
+        if (set->point[i].x % set->spacing != 0 || set->point[i].y % set->spacing != 0)
             return false;
     return true;
 }
@@ -529,75 +524,74 @@ static void put_seed(coder_t *coder, uint8_t seed)
     coder->size--;
 }
 
-size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits)
+size_t yb_compact_write(const yb_contour_set_t *set, uint8_t *code, size_t room, yb_bits_t *bits)
 {
     coder_t coder = {.code = code, .room = room, .range = 1, .bits = bits};
-    if (room < 4 || !on_lattice(paper))
+    if (room < 4 || !on_lattice(set))
         return 0;
     for (int i = 0; i < MODELS; i++)
         coder.model[i] = model_first(i);
-    dump = getenv("YB_DUMP") && paper->vertices > 0;
-    if (dump)
-        fprintf(stderr, "NEW\n");
     code[coder.size++] = YB_FORMAT_VERSION << 4 | YB_COMPACT;
     narrow(&coder, 0, 1);
-    put_header(&coder, paper);
-    put_contours(&coder, paper);
+    put_header(&coder, set);
+    put_contours(&coder, set);
     coder.kind = YB_BITS_HEADER;
-    put_bit(&coder, MODEL_SECTIONS, yb_sections_size(paper->sections) > 0);
+    put_bit(&coder, MODEL_SECTIONS, yb_sections_size(set->sections) > 0);
     if (coder.failed)
         return 0;
     if (bits != NULL)
         bits->all = (double)coder.size * 8 - log2((double)coder.range / RANGE_LEAST) +
-                    8 * (double)yb_sections_size(paper->sections);
-    put_seed(&coder, paper->seed);
-    return yb_sections_end(paper->sections, code, coder.size, room);
+                    8 * (double)yb_sections_size(set->sections);
+    put_seed(&coder, set->seed);
+    return yb_sections_end(set->sections, code, coder.size, room);
 }
 
-/* Units above the base that a draft of a code counts from: low enough for all heights. */
+/* Units that the base of a set lies below that of the code it is read from: low enough for all
+ * heights. */
 enum {
-    DRAFT_DEPTH = 32768
+    READ_DEPTH = 32768
 };
 
 static uint16_t read_height(const yb_code_file_t *file, int32_t z_q8)
 {
     const yb_map_t *map = &file->map;
-    double height_m = map->base_m + z_q8 / 256.0 * yb_paper_metres(map->cell);
-    double units = height_m / yb_paper_metres(map->unit) - file->load.base;
-    return (uint16_t)(lround(units) + DRAFT_DEPTH);
+    double height_m = map->base_m + z_q8 / 256.0 * yb_unit_m(map->cell);
+    double units = height_m / yb_unit_m(map->unit) - file->load.base;
+    return (uint16_t)(lround(units) + READ_DEPTH);
 }
 
-void yb_compact_read(const yb_code_file_t *file, yb_paper_t *paper)
+void yb_compact_read(const yb_code_file_t *file, yb_contour_set_t *set)
 {
     const yb_map_t *map = &file->map;
     const yb_load_t *load = &file->load;
-    *paper = (yb_paper_t){.profile = YB_COMPACT,
-                          .east = (uint8_t)(map->east_q8 >> 8),
-                          .north = (uint8_t)(map->north_q8 >> 8),
-                          .spacing = load->spacing,
-                          .interval = load->interval,
-                          .vertex_class = (uint8_t)yb_compact_vertex_class(load->vertices_promised),
-                          .cell = map->cell,
-                          .unit = map->unit,
-                          .base = load->base - DRAFT_DEPTH,
-                          .seed = map->seed,
-                          .gain = load->gain,
-                          .dimension = (uint8_t)(255 - map->hurst_q8m1),
-                          .straight = !map->smooth,
-                          .frame = read_height(file, load->frame_height),
-                          .sections = &file->sections};
+    *set = (yb_contour_set_t){.profile = YB_COMPACT,
+                              .east = (uint8_t)(map->east_q8 >> 8),
+                              .north = (uint8_t)(map->north_q8 >> 8),
+                              .spacing = load->spacing,
+                              .interval = load->interval,
+                              .vertex_class =
+                                  (uint8_t)yb_compact_vertex_class(load->vertices_promised),
+                              .cell = map->cell,
+                              .unit = map->unit,
+                              .base = load->base - READ_DEPTH,
+                              .seed = map->seed,
+                              .gain = load->gain,
+                              .dimension = (uint8_t)(255 - map->hurst_q8m1),
+                              .straight = !map->smooth,
+                              .frame = read_height(file, load->frame_height),
+                              .sections = &file->sections};
     for (int i = 0; i < YB_CORNERS; i++)
         if (load->corner_height[i] != INT32_MIN) {
-            paper->corners |= (uint8_t)(1U << i);
-            paper->corner[i] = read_height(file, load->corner_height[i]);
+            set->corners |= (uint8_t)(1U << i);
+            set->corner[i] = read_height(file, load->corner_height[i]);
         }
     for (int i = 0; i < load->contour_count; i++) {
         const yb_contour_t *contour = &load->contour[i];
         const yb_vertex_t *vertex = &map->vertex[contour->first];
-        yb_step_t point[YB_PAPER_POINTS];
-        for (int k = 0; k < contour->count && k < YB_PAPER_POINTS; k++)
+        yb_step_t point[YB_SET_POINTS];
+        for (int k = 0; k < contour->count && k < YB_SET_POINTS; k++)
             point[k] = (yb_step_t){(uint8_t)(vertex[k].x_q8 >> 8), (uint8_t)(vertex[k].y_q8 >> 8)};
-        yb_paper_append(paper, read_height(file, vertex->z_q8), contour->open, point,
-                        contour->count);
+        yb_contour_set_append(set, read_height(file, vertex->z_q8), contour->open, point,
+                              contour->count);
     }
 }

@@ -2,18 +2,20 @@
 #ifndef YB_COMPACT_CODE_H
 #define YB_COMPACT_CODE_H
 
-#include "paper_code.h"
+#include "code_bits.h"
+#include "code_file.h"
+#include "contour_set.h"
 
-/* Writes a code; answers its size, or 0 if the draft does not fit the profile: a point off the
- * lattice, a line at no multiple of the interval, more than `room` bytes. Lines come in the draft's
+/* Writes a code; answers its size, or 0 if the set does not fit the profile: a point off the
+ * lattice, a line at no multiple of the interval, more than `room` bytes. Lines come in the set's
  * order, from the first of their points; spot heights in the order of their rows. bits, which may
  * be NULL, becomes the size with its fractions of a bit. Whether the contours are possible only the
  * engine says.
  */
-size_t yb_compact_write(const yb_paper_t *paper, uint8_t *code, size_t room, yb_bits_t *bits);
+size_t yb_compact_write(const yb_contour_set_t *set, uint8_t *code, size_t room, yb_bits_t *bits);
 
-/* The draft that a code was written from: writing it again gives the code's bytes. */
-void yb_compact_read(const yb_code_file_t *file, yb_paper_t *paper);
+/* The set that a code was written from: writing it again gives the code's bytes. */
+void yb_compact_read(const yb_code_file_t *file, yb_contour_set_t *set);
 
 /* The nearest of the profile's cells, units, gains and dimensions. */
 uint16_t yb_compact_cell(double metres);

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "paper_code.h"
+#include "contour_set.h"
 #include "simplify.h"
 
 enum {
@@ -34,10 +34,10 @@ static bool no_memory(yb_error_t *error)
 static uint16_t cell_of(double longest_m)
 {
     double cell_m = longest_m / STEPS;
-    uint16_t coded = yb_paper_unit(cell_m);
-    while (yb_paper_metres(coded) * STEPS < longest_m) {
+    uint16_t coded = yb_unit_coded(cell_m);
+    while (yb_unit_m(coded) * STEPS < longest_m) {
         cell_m *= 1.0001;
-        coded = yb_paper_unit(cell_m);
+        coded = yb_unit_coded(cell_m);
     }
     return coded;
 }
@@ -84,13 +84,13 @@ static bool begin_map(builder_t *builder, yb_error_t *error)
                             lines->width_m, lines->depth_m);
     yb_map_begin(map, builder->load);
     map->cell = cell_of(fmax(lines->width_m, lines->depth_m));
-    map->unit = yb_paper_unit(1);
+    map->unit = yb_unit_coded(1);
     double frame_m = frame_height_m(lines);
     map->base_m = (int16_t)fmin(fmax(floor(fmin(low_m, frame_m)), INT16_MIN), INT16_MAX);
     map->smooth = true;
     map->detail = false;
     map->hurst_q8m1 = UINT8_MAX;
-    builder->cell_m = yb_paper_metres(map->cell);
+    builder->cell_m = yb_unit_m(map->cell);
     double frame_q8 = round((frame_m - map->base_m) / builder->cell_m * 256);
     builder->load->frame_height = (int32_t)fmin(fmax(frame_q8, 0), YB_MAX_HEIGHT_Q8);
     map->east_q8 = (uint16_t)(lround(lines->width_m / builder->cell_m * GRAINS) * GRAIN_Q8);

@@ -8,6 +8,7 @@
 
 #include "certificate.h"
 #include "compact_code.h"
+#include "contour_code.h"
 #include "fractal.h"
 #include "judge.h"
 #include "line_grid.h"
@@ -36,7 +37,7 @@ static const double cold = 0.0001;
 static const double first_part = 0.4;
 
 typedef struct {
-    yb_paper_t paper;
+    yb_contour_set_t set;
     int spacing;
     double score_m; /* below 0: there is none */
 } draft_t;
@@ -120,60 +121,60 @@ static bool divides(const encoder_t *encoder, double height_m)
 /* Unit and interval of the compact profile: where lines must lie at given levels, a part of the
  * least step between two of them if it fits all; else a fifth of the relief's deviation.
  */
-static void choose_unit(const encoder_t *encoder, yb_paper_t *paper)
+static void choose_unit(const encoder_t *encoder, yb_contour_set_t *set)
 {
     const yb_grid_t *grid = encoder->grid;
     double step_m = encoder->levels > 0 ? encoder->level_m[0] : 0;
     for (int i = 1; i < encoder->levels; i++)
         step_m = fmin(step_m, encoder->level_m[i] - encoder->level_m[i - 1]);
-    paper->unit = yb_compact_unit(encoder->levels > 0 ? (double)(grid->high_m - grid->low_m) / 256
-                                                      : grid->std_m / 5);
+    set->unit = yb_compact_unit(encoder->levels > 0 ? (double)(grid->high_m - grid->low_m) / 256
+                                                    : grid->std_m / 5);
     /* Powers of two first: lines then skip units that spot heights have. */
     static const int parts[] = {4, 2, 1, 8, 5, 3, 10, 6, 7, 20, 25, 9};
     for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]) && step_m > 0; i++) {
         uint16_t unit = yb_compact_unit(step_m / parts[i]);
-        if (fabs(yb_paper_metres(unit) * parts[i] / step_m - 1) > 1e-9 || !divides(encoder, step_m))
+        if (fabs(yb_unit_m(unit) * parts[i] / step_m - 1) > 1e-9 || !divides(encoder, step_m))
             continue;
-        paper->unit = unit;
-        paper->interval =
+        set->unit = unit;
+        set->interval =
             (uint8_t)(parts[i] <= 8 && (parts[i] & (parts[i] - 1)) == 0 ? (int)log2(parts[i]) : 0);
         break;
     }
     /* Well below the lowest height, and a multiple of all intervals. */
     double range_m = (double)(grid->high_m - grid->low_m);
     double base_m = (double)grid->low_m - range_m;
-    paper->base = (int)floor(base_m / yb_paper_metres(paper->unit) / 8) * 8;
+    set->base = (int)floor(base_m / yb_unit_m(set->unit) / 8) * 8;
 }
 
-static void begin_paper(const encoder_t *encoder, yb_paper_t *paper, int spacing)
+static void begin_set(const encoder_t *encoder, yb_contour_set_t *set, int spacing)
 {
     const yb_grid_t *grid = encoder->grid;
     const yb_encode_task_t *task = encoder->task;
     double width = yb_grid_width_m(grid);
     double depth = yb_grid_depth_m(grid);
-    yb_sketch_begin(paper, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
-    paper->seed = task->seed;
-    paper->profile = task->profile;
-    paper->sections = task->sections;
-    if (paper->profile == YB_COMPACT) {
-        paper->cell = yb_compact_cell(fmax(width / paper->east, depth / paper->north));
-        paper->vertex_class =
+    yb_sketch_begin(set, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
+    set->seed = task->seed;
+    set->profile = task->profile;
+    set->sections = task->sections;
+    if (set->profile == YB_COMPACT) {
+        set->cell = yb_compact_cell(fmax(width / set->east, depth / set->north));
+        set->vertex_class =
             (uint8_t)yb_compact_vertex_class(task->vertices > 0 ? task->vertices : 255);
-        choose_unit(encoder, paper);
+        choose_unit(encoder, set);
     }
-    yb_sketch_corners(paper, grid);
-    paper->corners = task->most_bytes >= FEW_BYTES ? 0xf : 0;
+    yb_sketch_corners(set, grid);
+    set->corners = task->most_bytes >= FEW_BYTES ? 0xf : 0;
 }
 
 /* Keeps a draft if it is the best of its spacing. */
-static void offer_draft(encoder_t *encoder, draft_t *draft, const yb_paper_t *paper)
+static void offer_draft(encoder_t *encoder, draft_t *draft, const yb_contour_set_t *set)
 {
-    uint8_t code[YB_PAPER_MOST_BYTES];
-    size_t size = yb_paper_code(paper, code, encoder->task->most_bytes, NULL);
+    uint8_t code[YB_CONTOUR_CODE_BYTES];
+    size_t size = yb_contour_code_write(set, code, encoder->task->most_bytes, NULL);
     double score = size > 0 ? yb_judge_score_m(encoder->judge, code, size) : -1;
     if (score < 0 || (draft->score_m >= 0 && draft->score_m <= score))
         return;
-    draft->paper = *paper;
+    draft->set = *set;
     draft->score_m = score;
 }
 
@@ -184,12 +185,12 @@ static void draft_lines(encoder_t *encoder, const yb_lines_t *lines)
     size_t bytes = encoder->task->most_bytes;
     for (int d = 0; d < encoder->drafts; d++)
         for (int i = 0; i < TOLERANCES; i++) {
-            yb_paper_t paper;
-            begin_paper(encoder, &paper, encoder->draft[d].spacing);
-            yb_sketch_spot(&paper, lines, yb_sketch_summit(encoder->grid),
+            yb_contour_set_t set;
+            begin_set(encoder, &set, encoder->draft[d].spacing);
+            yb_sketch_spot(&set, lines, yb_sketch_summit(encoder->grid),
                            (double)encoder->grid->high_m, bytes);
-            yb_sketch_lines(&paper, lines, tolerances[i] * longest, bytes);
-            offer_draft(encoder, &encoder->draft[d], &paper);
+            yb_sketch_lines(&set, lines, tolerances[i] * longest, bytes);
+            offer_draft(encoder, &encoder->draft[d], &set);
         }
 }
 
@@ -269,13 +270,13 @@ static void search_draft(const encoder_t *encoder, yb_judge_t *judge, draft_t *d
 {
     uint16_t level[YB_ENCODE_MOST_LEVELS];
     for (int i = 0; i < encoder->levels; i++)
-        level[i] = yb_paper_line_height(&draft->paper, encoder->level_m[i]);
+        level[i] = yb_contour_set_line_height(&draft->set, encoder->level_m[i]);
     search.grid = encoder->grid;
     search.judge = judge;
     search.most_bytes = encoder->task->most_bytes;
     search.level = level;
     search.levels = encoder->levels;
-    draft->score_m = yb_search_run(&search, &draft->paper);
+    draft->score_m = yb_search_run(&search, &draft->set);
 }
 
 /* Takes drafts from the encoder until all are searched. */
@@ -368,13 +369,13 @@ static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error
     if (!search_best(encoder))
         return yb_error_set(error, "out of memory");
     draft_t *best = &encoder->draft[0];
-    best->paper.dimension = yb_fractal_coded(result->dimension);
-    if (best->paper.profile == YB_COMPACT)
-        best->paper.dimension = yb_compact_dimension(best->paper.dimension);
+    best->set.dimension = yb_fractal_coded(result->dimension);
+    if (best->set.profile == YB_COMPACT)
+        best->set.dimension = yb_compact_dimension(best->set.dimension);
     /* Lines say nothing of what lies between them: the noise stays as strong as they suggest. */
     if (encoder->given == NULL)
-        yb_fractal_gain(&best->paper, encoder->grid);
-    result->code = yb_paper_check(&best->paper, error);
+        yb_fractal_gain(&best->set, encoder->grid);
+    result->code = yb_contour_code_load(&best->set, error);
     if (result->code == NULL)
         return false;
     result->rmse_m = yb_judge_map_rmse_m(&result->code->map, encoder->grid);

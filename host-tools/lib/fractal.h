@@ -23,7 +23,7 @@
 #include <jansson.h>
 
 #include "contour_lines.h"
-#include "paper_code.h"
+#include "contour_set.h"
 
 /* Dimensions that a code is given; measured ones are clamped to them. */
 #define YB_FRACTAL_LEAST 1.05
@@ -100,10 +100,10 @@ static inline double yb_fractal_hurst(double dimension)
     return 2 - dimension;
 }
 
-/* Sets paper->gain so that the map is as rough as the grid: that the rises over 1, 2, 4 and 8 cells
+/* Sets set->gain so that the map is as rough as the grid: that the rises over 1, 2, 4 and 8 cells
  * are as few octaves off as can be (roughness.h). False, with the gain as it was, if the code is
  * impossible or memory short. Cost: some fifteen reference surfaces.
  */
-bool yb_fractal_gain(yb_paper_t *paper, const yb_grid_t *grid);
+bool yb_fractal_gain(yb_contour_set_t *set, const yb_grid_t *grid);
 
 #endif

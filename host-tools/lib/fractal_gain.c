@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "contour_code.h"
 #include "fractal.h"
 #include "roughness.h"
 #include "surface.h"
@@ -37,7 +38,7 @@ static void measure_rises(const yb_grid_t *grid, const float *z_m, double *rise_
 
 typedef struct {
     const target_t *target;
-    yb_paper_t *paper;
+    yb_contour_set_t *set;
     int best;
     double least; /* octaves that the map is off with it */
 } search_t;
@@ -48,8 +49,8 @@ static bool try_gain(search_t *search, int gain)
     yb_error_t error;
     double rise_m[LAGS];
     const yb_grid_t *grid = search->target->grid;
-    search->paper->gain = (uint8_t)gain;
-    yb_code_file_t *file = yb_paper_check(search->paper, &error);
+    search->set->gain = (uint8_t)gain;
+    yb_code_file_t *file = yb_contour_code_load(search->set, &error);
     if (file == NULL)
         return false;
     float *z_m = yb_map_heights_m(&file->map, search->target->x_q8, (uint32_t)grid->columns,
@@ -84,16 +85,16 @@ static bool search_gain(search_t *search)
     return good;
 }
 
-bool yb_fractal_gain(yb_paper_t *paper, const yb_grid_t *grid)
+bool yb_fractal_gain(yb_contour_set_t *set, const yb_grid_t *grid)
 {
-    const uint8_t before = paper->gain;
+    const uint8_t before = set->gain;
     target_t target = {.grid = grid,
-                       .x_q8 = places(grid->columns, paper->east),
-                       .y_q8 = places(grid->rows, paper->north)};
+                       .x_q8 = places(grid->columns, set->east),
+                       .y_q8 = places(grid->rows, set->north)};
     measure_rises(grid, grid->height_m, target.real_m);
-    search_t search = {.target = &target, .paper = paper, .least = HUGE_VAL};
+    search_t search = {.target = &target, .set = set, .least = HUGE_VAL};
     const bool good = target.x_q8 != NULL && target.y_q8 != NULL && search_gain(&search);
-    paper->gain = good ? (uint8_t)search.best : before;
+    set->gain = good ? (uint8_t)search.best : before;
     free(target.x_q8);
     free(target.y_q8);
     return good;

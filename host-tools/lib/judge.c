@@ -197,8 +197,8 @@ static double sum_squares(const yb_judge_t *judge)
         for (int i = 0; i < columns - 1; i++) {
             float east_rise = off[i + 1] - off[i];
             float north_rise = north[i] - off[i];
-            sum[i] += off[i] * off[i] +
-                      slope_weight * (east_rise * east_rise + north_rise * north_rise);
+            sum[i] +=
+                off[i] * off[i] + slope_weight * (east_rise * east_rise + north_rise * north_rise);
         }
         float rise = north[columns - 1] - off[columns - 1];
         sum[columns - 1] += off[columns - 1] * off[columns - 1] + slope_weight * rise * rise;
@@ -213,7 +213,7 @@ double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
 {
     if (yb_map_load(&judge->map, &judge->load, code, size) != YB_OK)
         return -1;
-    judge->metres_per_q8 = (float)(yb_paper_metres(judge->map.cell) / 256);
+    judge->metres_per_q8 = (float)(yb_unit_m(judge->map.cell) / 256);
     judge->base_m = judge->map.base_m;
     judge->summit_x_q8 = (int)lround(judge->summit_east * judge->map.east_q8);
     judge->summit_y_q8 = (int)lround(judge->summit_north * judge->map.north_q8);
@@ -259,7 +259,7 @@ double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid)
     smooth.detail = false;
     int columns = grid->columns < MOST_SIDE ? grid->columns : MOST_SIDE;
     int rows = grid->rows < MOST_SIDE ? grid->rows : MOST_SIDE;
-    double metres_per_q8 = yb_paper_metres(map->cell) / 256;
+    double metres_per_q8 = yb_unit_m(map->cell) / 256;
     double sum = 0;
     for (int row = 0; row < rows; row++)
         for (int column = 0; column < columns; column++) {

@@ -5,8 +5,8 @@
 #ifndef YB_JUDGE_H
 #define YB_JUDGE_H
 
+#include "contour_set.h"
 #include "grid.h"
-#include "paper_code.h"
 
 typedef struct yb_judge yb_judge_t;
 

@@ -279,17 +279,17 @@ bool yb_line_judge_score(yb_line_judge_t *judge, const uint8_t *code, size_t siz
     *score = (yb_line_score_t){.vertices = map->vertex_count};
     double sum = 0;
     double lengths = 0;
-    double unit_m = yb_paper_metres(map->unit);
+    double unit_m = yb_unit_m(map->unit);
     const yb_contour_t *contour = judge->load.contour;
     const yb_isolines_t *reproductions = NULL;
     int32_t cut_q8 = INT32_MIN;
     for (int i = 0; i < judge->load.contour_count; i++) {
-        yb_point2_t point[YB_PAPER_POINTS];
+        yb_point2_t point[YB_SET_POINTS];
         yb_isoline_t coded = {
             .point = point, .count = contour[i].count, .closed = !contour[i].open};
         if (each != NULL)
             each[i] = 0;
-        if (coded.count < 2 || coded.count > YB_PAPER_POINTS)
+        if (coded.count < 2 || coded.count > YB_SET_POINTS)
             continue;
         for (size_t k = 0; k < coded.count; k++) {
             const yb_vertex_t *vertex = &map->vertex[contour[i].first + k];

@@ -6,9 +6,9 @@
 #define YB_LINE_JUDGE_H
 
 #include "contour_lines.h"
+#include "contour_set.h"
 #include "grid.h"
 #include "outline.h"
-#include "paper_code.h"
 
 typedef struct yb_line_judge yb_line_judge_t;
 

@@ -4,6 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compact_code.h"
+#include "contour_code.h"
+#include "paper_code.h"
+
 /* Inner points keep so many steps away from the frame: nearer ones would stand for heights of the
  * frame itself, with a cliff along its side.
  */
@@ -23,7 +27,7 @@ typedef struct {
     const yb_search_t *task;
     uint64_t random;
     double heat; /* 1 at the start, 0 at the end: how far changes go */
-    yb_paper_t now, next, best;
+    yb_contour_set_t now, next, best;
 } state_t;
 
 typedef bool (*change_fn)(state_t *state);
@@ -64,19 +68,19 @@ static int margin_of(int size)
 }
 
 /* Whether an inner point may lie there. */
-static bool is_inner(const yb_paper_t *paper, int x, int y)
+static bool is_inner(const yb_contour_set_t *set, int x, int y)
 {
-    int margin_x = margin_of(paper->east);
-    int margin_y = margin_of(paper->north);
-    return x >= margin_x && y >= margin_y && x <= paper->east - margin_x &&
-           y <= paper->north - margin_y;
+    int margin_x = margin_of(set->east);
+    int margin_y = margin_of(set->north);
+    return x >= margin_x && y >= margin_y && x <= set->east - margin_x &&
+           y <= set->north - margin_y;
 }
 
-static int contour_of(const yb_paper_t *paper, int point)
+static int contour_of(const yb_contour_set_t *set, int point)
 {
     int contour = 0;
-    while (point >= paper->contour[contour].count)
-        point -= paper->contour[contour++].count;
+    while (point >= set->contour[contour].count)
+        point -= set->contour[contour++].count;
     return contour;
 }
 
@@ -101,25 +105,25 @@ static double reach_now(const state_t *state)
     return state->next.spacing * 1.5 + 40 * state->heat;
 }
 
-static bool is_frame_end(const yb_paper_t *paper, int contour, int first, int point)
+static bool is_frame_end(const yb_contour_set_t *set, int contour, int first, int point)
 {
-    return paper->contour[contour].open &&
-           (point == first || point == first + paper->contour[contour].count - 1);
+    return set->contour[contour].open &&
+           (point == first || point == first + set->contour[contour].count - 1);
 }
 
 /* Slides an end along its side of the frame, not into a corner. */
 static bool slide_end(state_t *state, yb_step_t *at)
 {
     int move = random_move(state, reach_now(state));
-    yb_paper_t *paper = &state->next;
-    if (at->x == 0 || at->x == paper->east) {
+    yb_contour_set_t *set = &state->next;
+    if (at->x == 0 || at->x == set->east) {
         int y = at->y + move;
-        if (y <= 0 || y >= paper->north)
+        if (y <= 0 || y >= set->north)
             return false;
         at->y = (uint8_t)y;
     } else {
         int x = at->x + move;
-        if (x <= 0 || x >= paper->east)
+        if (x <= 0 || x >= set->east)
             return false;
         at->x = (uint8_t)x;
     }
@@ -133,27 +137,27 @@ static bool random_point(state_t *state, int *point, int *contour, int *first)
         return false;
     *point = random_below(state, state->next.point_count);
     *contour = contour_of(&state->next, *point);
-    *first = yb_paper_first(&state->next, *contour);
+    *first = yb_contour_set_first(&state->next, *contour);
     return true;
 }
 
 static bool change_point(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     int point = 0;
     int contour = 0;
     int first = 0;
     if (!random_point(state, &point, &contour, &first))
         return false;
-    yb_step_t *at = &paper->point[point];
-    if (is_frame_end(paper, contour, first, point))
+    yb_step_t *at = &set->point[point];
+    if (is_frame_end(set, contour, first, point))
         return slide_end(state, at);
     double reach = reach_now(state);
     int move_x = random_move(state, reach);
     int move_y = random_move(state, reach);
     int x = at->x + move_x;
     int y = at->y + move_y;
-    if (!is_inner(paper, x, y))
+    if (!is_inner(set, x, y))
         return false;
     at->x = (uint8_t)x;
     at->y = (uint8_t)y;
@@ -163,22 +167,22 @@ static bool change_point(state_t *state)
 /* Moves a whole closed contour. */
 static bool change_place(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count;
+    yb_contour_set_t *set = &state->next;
+    int contours = set->contour_count;
     if (contours <= 0)
         return false;
     int contour = random_below(state, contours);
-    if (paper->contour[contour].open)
+    if (set->contour[contour].open)
         return false;
     int x = random_move(state, 6 + 10 * state->heat);
     int y = random_move(state, 6 + 10 * state->heat);
-    int first = yb_paper_first(paper, contour);
-    for (int i = first; i < first + paper->contour[contour].count; i++) {
-        int new_x = paper->point[i].x + x;
-        int new_y = paper->point[i].y + y;
-        if (!is_inner(paper, new_x, new_y))
+    int first = yb_contour_set_first(set, contour);
+    for (int i = first; i < first + set->contour[contour].count; i++) {
+        int new_x = set->point[i].x + x;
+        int new_y = set->point[i].y + y;
+        if (!is_inner(set, new_x, new_y))
             return false;
-        paper->point[i] = (yb_step_t){(uint8_t)new_x, (uint8_t)new_y};
+        set->point[i] = (yb_step_t){(uint8_t)new_x, (uint8_t)new_y};
     }
     return x != 0 || y != 0;
 }
@@ -186,7 +190,7 @@ static bool change_place(state_t *state)
 /* By a multiple of `unit` that is not 0. */
 static uint16_t moved_height(state_t *state, uint16_t height, int unit)
 {
-    double std = state->task->grid->std_m / yb_paper_metres(state->next.unit) / unit;
+    double std = state->task->grid->std_m / yb_unit_m(state->next.unit) / unit;
     int move = (int)lround(random_bell(state, std * (0.08 + 0.6 * state->heat)));
     if (move == 0)
         move = random_below(state, 2) == 0 ? -1 : 1;
@@ -222,29 +226,29 @@ static uint16_t other_level(state_t *state, uint16_t height)
 
 static bool change_height(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count;
+    yb_contour_set_t *set = &state->next;
+    int contours = set->contour_count;
     if (contours <= 0)
         return false;
     int contour = random_below(state, contours);
-    uint16_t *height = &paper->contour[contour].height;
+    uint16_t *height = &set->contour[contour].height;
     uint16_t before = *height;
-    if (paper->contour[contour].count > 1 && state->task->levels > 0)
+    if (set->contour[contour].count > 1 && state->task->levels > 0)
         *height = other_level(state, before);
     else
-        *height = moved_height(state, before,
-                               paper->contour[contour].count > 1 ? 1 << paper->interval : 1);
+        *height =
+            moved_height(state, before, set->contour[contour].count > 1 ? 1 << set->interval : 1);
     return *height != before;
 }
 
 static bool change_corner(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     int corner = random_below(state, YB_CORNERS);
-    if (paper->corners == 0)
-        paper->frame = moved_height(state, paper->frame, 1);
-    else if ((paper->corners >> corner & 1) != 0)
-        paper->corner[corner] = moved_height(state, paper->corner[corner], 1);
+    if (set->corners == 0)
+        set->frame = moved_height(state, set->frame, 1);
+    else if ((set->corners >> corner & 1) != 0)
+        set->corner[corner] = moved_height(state, set->corner[corner], 1);
     else
         return false;
     return true;
@@ -253,51 +257,51 @@ static bool change_corner(state_t *state)
 /* Codes a corner's height, or no longer. */
 static bool toggle_corner(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    paper->corners = (uint8_t)(paper->corners ^ 1U << random_below(state, YB_CORNERS));
+    yb_contour_set_t *set = &state->next;
+    set->corners = (uint8_t)(set->corners ^ 1U << random_below(state, YB_CORNERS));
     return true;
 }
 
 /* A new point near the middle of a segment, off it to one side. */
 static bool add_point(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     int point = 0;
     int contour = 0;
     int first = 0;
     if (!random_point(state, &point, &contour, &first))
         return false;
-    int count = paper->contour[contour].count;
+    int count = set->contour[contour].count;
     bool last = point == first + count - 1;
-    if (count == 1 || (last && paper->contour[contour].open))
+    if (count == 1 || (last && set->contour[contour].open))
         return false;
-    yb_step_t a = paper->point[point];
-    yb_step_t b = paper->point[last ? first : point + 1];
-    int unit = paper->spacing;
+    yb_step_t a = set->point[point];
+    yb_step_t b = set->point[last ? first : point + 1];
+    int unit = set->spacing;
     double along = 0.3 + 0.4 * random_share(state);
     double side = random_bell(state, 0.6);
     double off_x = along * (b.x - a.x) - side * (b.y - a.y);
     double off_y = along * (b.y - a.y) + side * (b.x - a.x);
     int x = a.x + (int)lround(off_x / unit) * unit;
     int y = a.y + (int)lround(off_y / unit) * unit;
-    if (!is_inner(paper, x, y))
+    if (!is_inner(set, x, y))
         return false;
-    return yb_paper_insert(paper, contour, point + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
+    return yb_contour_set_insert(set, contour, point + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
 }
 
 static bool remove_point(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     int point = 0;
     int contour = 0;
     int first = 0;
     if (!random_point(state, &point, &contour, &first))
         return false;
-    if (is_frame_end(paper, contour, first, point))
+    if (is_frame_end(set, contour, first, point))
         return false;
-    if (paper->contour[contour].count <= 3 && !paper->contour[contour].open)
+    if (set->contour[contour].count <= 3 && !set->contour[contour].open)
         return false;
-    yb_paper_remove(paper, contour, point);
+    yb_contour_set_remove(set, contour, point);
     return true;
 }
 
@@ -308,45 +312,45 @@ static bool transfer_point(state_t *state)
 
 static bool remove_contour(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count;
+    yb_contour_set_t *set = &state->next;
+    int contours = set->contour_count;
     if (contours <= 0)
         return false;
-    yb_paper_drop(paper, random_below(state, contours));
+    yb_contour_set_drop(set, random_below(state, contours));
     return true;
 }
 
 /* Somewhere, more often where the surface is wrong; strictly inside the frame. */
 static yb_step_t wanted_place(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     double east_m = 0;
     double north_m = 0;
     yb_judge_worst(state->task->judge, random_share(state), &east_m, &north_m);
     double width = yb_grid_width_m(state->task->grid);
     double depth = yb_grid_depth_m(state->task->grid);
-    int x = (int)lround(east_m / width * paper->east + random_bell(state, 8));
-    int y = (int)lround(north_m / depth * paper->north + random_bell(state, 8));
-    int margin_x = margin_of(paper->east);
-    int margin_y = margin_of(paper->north);
-    int unit = paper->spacing;
-    x = clamp(x, margin_x, paper->east - margin_x) / unit * unit;
-    y = clamp(y, margin_y, paper->north - margin_y) / unit * unit;
+    int x = (int)lround(east_m / width * set->east + random_bell(state, 8));
+    int y = (int)lround(north_m / depth * set->north + random_bell(state, 8));
+    int margin_x = margin_of(set->east);
+    int margin_y = margin_of(set->north);
+    int unit = set->spacing;
+    x = clamp(x, margin_x, set->east - margin_x) / unit * unit;
+    y = clamp(y, margin_y, set->north - margin_y) / unit * unit;
     return (yb_step_t){(uint8_t)(x < unit ? unit : x), (uint8_t)(y < unit ? unit : y)};
 }
 
 static uint16_t true_height(const state_t *state, double x, double y)
 {
     const yb_grid_t *grid = state->task->grid;
-    const yb_paper_t *paper = &state->next;
-    return yb_paper_height(paper, yb_grid_height(grid, x / paper->east * yb_grid_width_m(grid),
-                                                 y / paper->north * yb_grid_depth_m(grid)));
+    const yb_contour_set_t *set = &state->next;
+    return yb_contour_set_height(set, yb_grid_height(grid, x / set->east * yb_grid_width_m(grid),
+                                                     y / set->north * yb_grid_depth_m(grid)));
 }
 
 static bool add_spot(state_t *state)
 {
     yb_step_t at = wanted_place(state);
-    return yb_paper_append(&state->next, true_height(state, at.x, at.y), false, &at, 1);
+    return yb_contour_set_append(&state->next, true_height(state, at.x, at.y), false, &at, 1);
 }
 
 static bool transfer_spot(state_t *state)
@@ -357,9 +361,9 @@ static bool transfer_spot(state_t *state)
 /* A ring of three or four points at one height. */
 static bool add_ring(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     yb_step_t middle = wanted_place(state);
-    int unit = paper->spacing;
+    int unit = set->spacing;
     int count = 3 + random_below(state, 2);
     double radius = 8 + 50 * random_share(state);
     double turn = 6.2831853 * random_share(state);
@@ -369,28 +373,28 @@ static bool add_ring(state_t *state)
         double angle = turn + 6.2831853 * i / count;
         int x = middle.x + (int)lround(radius * cos(angle) / unit) * unit;
         int y = middle.y + (int)lround(radius * sin(angle) / unit) * unit;
-        if (!is_inner(paper, x, y))
+        if (!is_inner(set, x, y))
             return false;
         point[i] = (yb_step_t){(uint8_t)x, (uint8_t)y};
         sum += true_height(state, x, y);
     }
-    return yb_paper_append(paper, line_height(state, sum / count), false, point, count);
+    return yb_contour_set_append(set, line_height(state, sum / count), false, point, count);
 }
 
 /* A place on one of the four sides, whose coordinates are multiples of the lattice's difference. */
 static yb_step_t frame_place(state_t *state, int side)
 {
-    yb_paper_t *paper = &state->next;
-    int unit = paper->spacing;
-    int along = side % 2 == 0 ? paper->east : paper->north;
+    yb_contour_set_t *set = &state->next;
+    int unit = set->spacing;
+    int along = side % 2 == 0 ? set->east : set->north;
     int at = (1 + random_below(state, (along - 1) / unit - 1)) * unit;
     switch (side) {
     case 0:
         return (yb_step_t){(uint8_t)at, 0};
     case 1:
-        return (yb_step_t){paper->east, (uint8_t)at};
+        return (yb_step_t){set->east, (uint8_t)at};
     case 2:
-        return (yb_step_t){(uint8_t)at, paper->north};
+        return (yb_step_t){(uint8_t)at, set->north};
     default:
         return (yb_step_t){0, (uint8_t)at};
     }
@@ -399,7 +403,7 @@ static yb_step_t frame_place(state_t *state, int side)
 /* A straight line from one side to another. */
 static bool add_crossing(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     int side = random_below(state, 4);
     int other = (side + 1 + random_below(state, 3)) % 4;
     yb_step_t point[2] = {frame_place(state, side), frame_place(state, other)};
@@ -408,8 +412,8 @@ static bool add_crossing(state_t *state)
     double sum = true_height(state, x, y);
     for (int i = 0; i < 2; i++)
         sum += true_height(state, point[i].x, point[i].y);
-    return yb_paper_append(paper, line_height(state, sum / 3), true, point, 2) &&
-           yb_paper_split(paper);
+    return yb_contour_set_append(set, line_height(state, sum / 3), true, point, 2) &&
+           yb_paper_split(set);
 }
 
 static bool transfer_ring(state_t *state)
@@ -425,19 +429,19 @@ static bool transfer_crossing(state_t *state)
 /* A line's point becomes a spot height of its own. */
 static bool detach_point(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
+    yb_contour_set_t *set = &state->next;
     int point = 0;
     int contour = 0;
     int first = 0;
     if (!random_point(state, &point, &contour, &first))
         return false;
-    int count = paper->contour[contour].count;
-    if (count < 3 || (count == 3 && !paper->contour[contour].open) ||
-        is_frame_end(paper, contour, first, point))
+    int count = set->contour[contour].count;
+    if (count < 3 || (count == 3 && !set->contour[contour].open) ||
+        is_frame_end(set, contour, first, point))
         return false;
-    yb_step_t at = paper->point[point];
-    yb_paper_remove(paper, contour, point);
-    return yb_paper_append(paper, true_height(state, at.x, at.y), false, &at, 1);
+    yb_step_t at = set->point[point];
+    yb_contour_set_remove(set, contour, point);
+    return yb_contour_set_append(set, true_height(state, at.x, at.y), false, &at, 1);
 }
 
 /* Square of the distance from p to the segment ab. */
@@ -455,23 +459,23 @@ static double distance_to(yb_step_t p, yb_step_t a, yb_step_t b)
 /* A spot height becomes a point of the line nearest to it. */
 static bool attach_spot(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    if (paper->contour_count == 0)
+    yb_contour_set_t *set = &state->next;
+    if (set->contour_count == 0)
         return false;
-    int spot = random_below(state, paper->contour_count);
-    if (paper->contour[spot].count != 1)
+    int spot = random_below(state, set->contour_count);
+    if (set->contour[spot].count != 1)
         return false;
-    yb_step_t at = paper->point[yb_paper_first(paper, spot)];
-    yb_paper_drop(paper, spot);
+    yb_step_t at = set->point[yb_contour_set_first(set, spot)];
+    yb_contour_set_drop(set, spot);
     double nearest = HUGE_VAL;
     int line = -1;
     int before = 0;
-    for (int i = 0, first = 0; i < paper->contour_count; first += paper->contour[i++].count) {
-        int count = paper->contour[i].count;
-        int segments = count == 1 ? 0 : paper->contour[i].open ? count - 1 : count;
+    for (int i = 0, first = 0; i < set->contour_count; first += set->contour[i++].count) {
+        int count = set->contour[i].count;
+        int segments = count == 1 ? 0 : set->contour[i].open ? count - 1 : count;
         for (int k = 0; k < segments; k++) {
             double away =
-                distance_to(at, paper->point[first + k], paper->point[first + (k + 1) % count]);
+                distance_to(at, set->point[first + k], set->point[first + (k + 1) % count]);
             if (away < nearest) {
                 nearest = away;
                 line = i;
@@ -479,7 +483,7 @@ static bool attach_spot(state_t *state)
             }
         }
     }
-    return line >= 0 && yb_paper_insert(paper, line, before, at);
+    return line >= 0 && yb_contour_set_insert(set, line, before, at);
 }
 
 /* Another start or direction for a closed line, another direction for an open one: the surface
@@ -487,18 +491,18 @@ static bool attach_spot(state_t *state)
  */
 static bool turn_line(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count;
+    yb_contour_set_t *set = &state->next;
+    int contours = set->contour_count;
     if (contours <= 0)
         return false;
     int contour = random_below(state, contours);
-    int count = paper->contour[contour].count;
+    int count = set->contour[contour].count;
     if (count < 2)
         return false;
-    yb_step_t *point = &paper->point[yb_paper_first(paper, contour)];
-    yb_step_t before[YB_PAPER_POINTS];
+    yb_step_t *point = &set->point[yb_contour_set_first(set, contour)];
+    yb_step_t before[YB_SET_POINTS];
     memcpy(before, point, (size_t)count * sizeof(*point));
-    bool open = paper->contour[contour].open;
+    bool open = set->contour[contour].open;
     int from = open ? count - 1 : random_below(state, count);
     bool back = open || random_below(state, 3) == 0;
     for (int i = 0; i < count; i++)
@@ -509,31 +513,32 @@ static bool turn_line(state_t *state)
 /* Another place in the order of the lines. */
 static bool reorder(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    int contours = paper->contour_count;
+    yb_contour_set_t *set = &state->next;
+    int contours = set->contour_count;
     if (contours <= 1)
         return false;
     int contour = random_below(state, contours);
     int to = random_below(state, contours);
-    return yb_paper_reorder(paper, contour, to);
+    return yb_contour_set_reorder(set, contour, to);
 }
 
 /* Another unit of height: all heights are rounded to it. */
 static bool change_unit(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    if (paper->profile != YB_COMPACT || state->task->levels > 0)
+    yb_contour_set_t *set = &state->next;
+    if (set->profile != YB_COMPACT || state->task->levels > 0)
         return false;
-    return yb_paper_rescale(paper, yb_paper_metres(paper->unit) * exp2(random_bell(state, 0.7)));
+    return yb_contour_set_rescale(
+        set, yb_compact_unit(yb_unit_m(set->unit) * exp2(random_bell(state, 0.7))));
 }
 
 /* Lifts or lowers all of it. */
 static bool change_base(state_t *state)
 {
-    yb_paper_t *paper = &state->next;
-    if (paper->profile != YB_COMPACT || state->task->levels > 0)
+    yb_contour_set_t *set = &state->next;
+    if (set->profile != YB_COMPACT || state->task->levels > 0)
         return false;
-    paper->base += random_below(state, 2) == 0 ? -1 : 1;
+    set->base += random_below(state, 2) == 0 ? -1 : 1;
     return true;
 }
 
@@ -567,12 +572,12 @@ static bool choose_change(state_t *state)
 /* What a code costs: how far it is from the truth, and so much for each bit. Codes that are a
  * little too long are let by, for a fine: the way to a better one may lead over them.
  */
-static double cost_of(state_t *state, const yb_paper_t *paper, bool *fits)
+static double cost_of(state_t *state, const yb_contour_set_t *set, bool *fits)
 {
-    uint8_t code[YB_PAPER_MOST_BYTES];
+    uint8_t code[YB_CONTOUR_CODE_BYTES];
     yb_bits_t bits = {0};
     size_t most = state->task->most_bytes;
-    size_t size = yb_paper_code(paper, code, most + most / 8, &bits);
+    size_t size = yb_contour_code_write(set, code, most + most / 8, &bits);
     if (size == 0)
         return -1;
     *fits = size <= most;
@@ -590,17 +595,17 @@ static void report(yb_progress_t *progress, double share)
     pthread_mutex_unlock(progress->lock);
 }
 
-double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
+double yb_search_run(const yb_search_t *search, yb_contour_set_t *set)
 {
     state_t *state = calloc(1, sizeof(*state));
     if (state == NULL)
         return -1;
     state->task = search;
     state->random = search->seed;
-    state->now = *paper;
-    state->best = *paper;
+    state->now = *set;
+    state->best = *set;
     bool fits = false;
-    double now = cost_of(state, paper, &fits);
+    double now = cost_of(state, set, &fits);
     double best = now;
     for (long trial = 0; trial < search->trials && best >= 0; trial++) {
         double done = (double)trial / (double)search->trials;
@@ -624,7 +629,7 @@ double yb_search_run(const yb_search_t *search, yb_paper_t *paper)
             state->best = state->now;
         }
     }
-    *paper = state->best;
+    *set = state->best;
     free(state);
     return best;
 }

@@ -8,8 +8,8 @@
 
 #include <pthread.h>
 
+#include "contour_set.h"
 #include "judge.h"
-#include "paper_code.h"
 
 /* Several searches together are `part` each of all the work. */
 typedef struct {
@@ -34,6 +34,6 @@ typedef struct {
 /* Improves the code in place, which must be possible at the start. Answers the
  * judge's score of it.
  */
-double yb_search_run(const yb_search_t *search, yb_paper_t *paper);
+double yb_search_run(const yb_search_t *search, yb_contour_set_t *set);
 
 #endif

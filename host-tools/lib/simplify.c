@@ -244,24 +244,23 @@ static bool meets_itself(const yb_step_t *point, int count, bool open)
 }
 
 /* Both on the same side of the frame. */
-static bool along_frame(const yb_paper_t *paper, yb_step_t a, yb_step_t b)
+static bool along_frame(const yb_contour_set_t *set, yb_step_t a, yb_step_t b)
 {
-    return (a.x == b.x && (a.x == 0 || a.x == paper->east)) ||
-           (a.y == b.y && (a.y == 0 || a.y == paper->north));
+    return (a.x == b.x && (a.x == 0 || a.x == set->east)) ||
+           (a.y == b.y && (a.y == 0 || a.y == set->north));
 }
 
-bool yb_simplify_fits(const yb_paper_t *paper, const yb_step_t *point, int count, bool open)
+bool yb_simplify_fits(const yb_contour_set_t *set, const yb_step_t *point, int count, bool open)
 {
-    if (open && count == 2 && along_frame(paper, point[0], point[1]))
+    if (open && count == 2 && along_frame(set, point[0], point[1]))
         return false;
     if (count > 1 && meets_itself(point, count, open))
         return false;
-    const yb_step_t *other = paper->point;
-    for (int i = 0; i < paper->contour_count; i++) {
-        if (contours_meet(point, count, open, other, paper->contour[i].count,
-                          paper->contour[i].open))
+    const yb_step_t *other = set->point;
+    for (int i = 0; i < set->contour_count; i++) {
+        if (contours_meet(point, count, open, other, set->contour[i].count, set->contour[i].open))
             return false;
-        other += paper->contour[i].count;
+        other += set->contour[i].count;
     }
     return true;
 }

@@ -5,7 +5,7 @@
 #define YB_SIMPLIFY_H
 
 #include "contour_lines.h"
-#include "paper_code.h"
+#include "contour_set.h"
 
 /* Chooses the places of a line such that no other is farther than tolerance_m from the polygon
  * through them (Ramer, Douglas and Peucker). A closed line is first cut at its two places that are
@@ -30,6 +30,6 @@ int yb_simplify_to_lattice(const yb_line_t *line, double tolerance_m, const yb_l
 /* Whether a new contour (count points, closed or open) crosses or touches itself or one of the
  * paper's: exact, in integers.
  */
-bool yb_simplify_fits(const yb_paper_t *paper, const yb_step_t *point, int count, bool open);
+bool yb_simplify_fits(const yb_contour_set_t *set, const yb_step_t *point, int count, bool open);
 
 #endif

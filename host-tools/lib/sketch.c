@@ -4,39 +4,42 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "contour_code.h"
+#include "paper_code.h"
+
 enum {
     MOST_STEPS = 255
 };
 
-void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double low_m, double high_m,
-                     int spacing)
+void yb_sketch_begin(yb_contour_set_t *set, double width_m, double depth_m, double low_m,
+                     double high_m, int spacing)
 {
-    memset(paper, 0, sizeof(*paper));
+    memset(set, 0, sizeof(*set));
     int unit = spacing;
     int longest = MOST_STEPS / unit * unit;
     double cell_m = fmax(width_m, depth_m) / longest;
     int east = (int)lround(width_m / cell_m / unit) * unit;
     int north = (int)lround(depth_m / cell_m / unit) * unit;
-    paper->east = (uint8_t)(east < 2 * unit ? 2 * unit : east);
-    paper->north = (uint8_t)(north < 2 * unit ? 2 * unit : north);
-    paper->spacing = (uint8_t)spacing;
-    while (1 << paper->shift < spacing)
-        paper->shift++;
-    paper->cell = yb_paper_unit(cell_m);
+    set->east = (uint8_t)(east < 2 * unit ? 2 * unit : east);
+    set->north = (uint8_t)(north < 2 * unit ? 2 * unit : north);
+    set->spacing = (uint8_t)spacing;
+    while (1 << set->shift < spacing)
+        set->shift++;
+    set->cell = yb_unit_coded(cell_m);
     double range_m = high_m - low_m;
     double lowest_m = floor(low_m - range_m / 2);
-    paper->base_m = (int16_t)fmin(fmax(lowest_m, INT16_MIN), INT16_MAX);
+    set->base_m = (int16_t)fmin(fmax(lowest_m, INT16_MIN), INT16_MAX);
     double unit_m = 1.0 / 64;
     while (unit_m * UINT16_MAX < 2 * range_m + 2)
         unit_m *= 2;
-    paper->unit = yb_paper_unit(unit_m);
-    paper->seed = 1;
-    paper->gain = 32;
-    paper->dimension = 64;
-    paper->frame = yb_paper_height(paper, low_m);
+    set->unit = yb_unit_coded(unit_m);
+    set->seed = 1;
+    set->gain = 32;
+    set->dimension = 64;
+    set->frame = yb_contour_set_height(set, low_m);
 }
 
-void yb_sketch_corners(yb_paper_t *paper, const yb_grid_t *grid)
+void yb_sketch_corners(yb_contour_set_t *set, const yb_grid_t *grid)
 {
     double width_m = yb_grid_width_m(grid);
     double depth_m = yb_grid_depth_m(grid);
@@ -44,62 +47,62 @@ void yb_sketch_corners(yb_paper_t *paper, const yb_grid_t *grid)
     double sum = 0;
     for (int i = 0; i < YB_CORNERS; i++) {
         double height_m = yb_grid_height(grid, corner_m[i][0], corner_m[i][1]);
-        paper->corner[i] = yb_paper_height(paper, height_m);
+        set->corner[i] = yb_contour_set_height(set, height_m);
         sum += height_m;
     }
-    paper->frame = yb_paper_height(paper, sum / YB_CORNERS);
+    set->frame = yb_contour_set_height(set, sum / YB_CORNERS);
 }
 
-bool yb_sketch_spot(yb_paper_t *paper, const yb_lines_t *frame, yb_place_t at, double height_m,
+bool yb_sketch_spot(yb_contour_set_t *set, const yb_lines_t *frame, yb_place_t at, double height_m,
                     size_t most_bytes)
 {
-    double unit = paper->spacing;
-    double x = round(at.x_m / frame->width_m * paper->east / unit) * unit;
-    double y = round(at.y_m / frame->depth_m * paper->north / unit) * unit;
-    x = fmin(fmax(x, unit), paper->east - unit);
-    y = fmin(fmax(y, unit), paper->north - unit);
+    double unit = set->spacing;
+    double x = round(at.x_m / frame->width_m * set->east / unit) * unit;
+    double y = round(at.y_m / frame->depth_m * set->north / unit) * unit;
+    x = fmin(fmax(x, unit), set->east - unit);
+    y = fmin(fmax(y, unit), set->north - unit);
     yb_step_t point = {(uint8_t)x, (uint8_t)y};
-    if (!yb_simplify_fits(paper, &point, 1, false) ||
-        !yb_paper_append(paper, yb_paper_height(paper, height_m), false, &point, 1))
+    if (!yb_simplify_fits(set, &point, 1, false) ||
+        !yb_contour_set_append(set, yb_contour_set_height(set, height_m), false, &point, 1))
         return false;
-    if (yb_paper_fits(paper, most_bytes))
+    if (yb_contour_code_fits(set, most_bytes))
         return true;
-    yb_paper_drop(paper, paper->contour_count - 1);
+    yb_contour_set_drop(set, set->contour_count - 1);
     return false;
 }
 
 /* Appends a line with the points that its long segments need, if all of it is possible. */
-static bool append_line(yb_paper_t *paper, double height_m, const yb_step_t *point, int count,
+static bool append_line(yb_contour_set_t *set, double height_m, const yb_step_t *point, int count,
                         bool open, size_t most_bytes)
 {
-    yb_paper_t before = *paper;
-    if (yb_simplify_fits(paper, point, count, open) &&
-        yb_paper_append(paper, yb_paper_line_height(paper, height_m), open, point, count) &&
-        yb_paper_split(paper) && yb_paper_fits(paper, most_bytes))
+    yb_contour_set_t before = *set;
+    if (yb_simplify_fits(set, point, count, open) &&
+        yb_contour_set_append(set, yb_contour_set_line_height(set, height_m), open, point, count) &&
+        yb_paper_split(set) && yb_contour_code_fits(set, most_bytes))
         return true;
-    *paper = before;
+    *set = before;
     return false;
 }
 
-int yb_sketch_lines(yb_paper_t *paper, const yb_lines_t *lines, double tolerance_m,
+int yb_sketch_lines(yb_contour_set_t *set, const yb_lines_t *lines, double tolerance_m,
                     size_t most_bytes)
 {
     yb_lattice_t lattice = {.width_m = lines->width_m,
                             .depth_m = lines->depth_m,
-                            .east = paper->east,
-                            .north = paper->north,
-                            .spacing = paper->spacing};
+                            .east = set->east,
+                            .north = set->north,
+                            .spacing = set->spacing};
     int added = 0;
     for (int i = 0; i < lines->count; i++) {
         const yb_line_t *line = &lines->line[i];
-        yb_step_t point[YB_PAPER_POINTS];
+        yb_step_t point[YB_SET_POINTS];
         if (line->count == 1) {
-            added += yb_sketch_spot(paper, lines, line->place[0], line->height_m, most_bytes);
+            added += yb_sketch_spot(set, lines, line->place[0], line->height_m, most_bytes);
             continue;
         }
-        int count = yb_simplify_to_lattice(line, tolerance_m, &lattice, point, YB_PAPER_POINTS);
+        int count = yb_simplify_to_lattice(line, tolerance_m, &lattice, point, YB_SET_POINTS);
         if (count > 0)
-            added += append_line(paper, line->height_m, point, count, !line->closed, most_bytes);
+            added += append_line(set, line->height_m, point, count, !line->closed, most_bytes);
     }
     return added;
 }

@@ -5,28 +5,28 @@
 #define YB_SKETCH_H
 
 #include "contour_lines.h"
-#include "paper_code.h"
+#include "contour_set.h"
 #include "simplify.h"
 
 /* Header of a code for a frame of these metres: at most 255 steps on the longer side (a multiple
  * of the spacing, so that a line can run from one side to the other), heights from low_m to high_m
  * with half as much to spare, one frame height at low_m, no contours, middling noise.
  */
-void yb_sketch_begin(yb_paper_t *paper, double width_m, double depth_m, double low_m, double high_m,
-                     int spacing);
+void yb_sketch_begin(yb_contour_set_t *set, double width_m, double depth_m, double low_m,
+                     double high_m, int spacing);
 
 /* Gives the corners the grid's heights, and the frame their mean. */
-void yb_sketch_corners(yb_paper_t *paper, const yb_grid_t *grid);
+void yb_sketch_corners(yb_contour_set_t *set, const yb_grid_t *grid);
 
 /* Adds a spot height at a place of the frame, moved strictly inside. False: no room or taken. */
-bool yb_sketch_spot(yb_paper_t *paper, const yb_lines_t *frame, yb_place_t at, double height_m,
+bool yb_sketch_spot(yb_contour_set_t *set, const yb_lines_t *frame, yb_place_t at, double height_m,
                     size_t most_bytes);
 
 /* Adds as many of the lines as fit, in the order given: closed and open ones simplified to
  * tolerance_m, spot heights as they are. Lines that cross what is there already are left out.
  * Answers how many were added.
  */
-int yb_sketch_lines(yb_paper_t *paper, const yb_lines_t *lines, double tolerance_m,
+int yb_sketch_lines(yb_contour_set_t *set, const yb_lines_t *lines, double tolerance_m,
                     size_t most_bytes);
 
 /* Longest first; spot heights last, the higher ones first. */

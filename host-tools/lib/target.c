@@ -6,6 +6,7 @@
 
 #include "compact_code.h"
 #include "comparison.h"
+#include "contour_code.h"
 #include "fidelity.h"
 #include "fractal.h"
 #include "line_grid.h"
@@ -52,7 +53,7 @@ static const double weakest_gain = 0.7;
 static const double weakest_of_lines = 0.25;
 
 typedef struct {
-    yb_paper_t paper;
+    yb_contour_set_t set;
     yb_target_score_t score;
     yb_line_judge_t *lines;
 } draft_t;
@@ -105,7 +106,7 @@ static bool choose_levels(loop_t *loop, yb_error_t *error)
 
 static yb_target_search_t search_of(loop_t *loop, draft_t *draft, uint64_t seed)
 {
-    int gain = draft->paper.gain;
+    int gain = draft->set.gain;
     return (yb_target_search_t){.grid = loop->grid,
                                 .judge = loop->judge,
                                 .lines = draft->lines,
@@ -131,20 +132,20 @@ static bool make_draft(loop_t *loop, int wanted_spacing, int lines)
                                      .dimension = loop->dimension,
                                      .level_m = loop->level_m,
                                      .levels = loop->levels};
-    bool good = yb_target_draft_begin(&begin, &draft->paper,
-                                      yb_target_draft_spacing(&begin, wanted_spacing));
+    bool good =
+        yb_target_draft_begin(&begin, &draft->set, yb_target_draft_spacing(&begin, wanted_spacing));
     for (int i = 0; i < loop->drafts && draft->lines == NULL; i++)
-        if (loop->draft[i].paper.east == draft->paper.east &&
-            loop->draft[i].paper.north == draft->paper.north)
+        if (loop->draft[i].set.east == draft->set.east &&
+            loop->draft[i].set.north == draft->set.north)
             draft->lines = loop->draft[i].lines;
     if (draft->lines == NULL)
         draft->lines =
-            yb_line_judge_new(loop->grid, loop->given, draft->paper.east, draft->paper.north);
+            yb_line_judge_new(loop->grid, loop->given, draft->set.east, draft->set.north);
     if (draft->lines == NULL)
         return false;
     yb_target_search_t search = search_of(loop, draft, 1);
     if (good)
-        yb_target_draft_lines(&search, &draft->paper, lines);
+        yb_target_draft_lines(&search, &draft->set, lines);
     draft->score.cost = good ? 0 : HUGE_VAL;
     loop->drafts++;
     return true;
@@ -165,7 +166,7 @@ static void improve(loop_t *loop, draft_t *draft, yb_target_search_t *search, lo
     search->progress = report;
     search->context = loop;
     loop->part = trials;
-    if (draft->score.cost < HUGE_VAL && !yb_target_search_run(search, &draft->paper, &draft->score))
+    if (draft->score.cost < HUGE_VAL && !yb_target_search_run(search, &draft->set, &draft->score))
         draft->score.cost = HUGE_VAL;
     loop->done += trials;
 }
@@ -180,17 +181,17 @@ static int by_cost(const void *a, const void *b)
 /* The gain that makes the map as rough as the relief. */
 static void fit_gain(loop_t *loop, draft_t *draft, yb_target_search_t *search)
 {
-    bool compact = draft->paper.profile == YB_COMPACT;
-    draft->paper.gain = 32;
+    bool compact = draft->set.profile == YB_COMPACT;
+    draft->set.gain = 32;
     if (loop->given == NULL)
-        yb_fractal_gain(&draft->paper, loop->grid);
-    double gain = draft->paper.gain;
+        yb_fractal_gain(&draft->set, loop->grid);
+    double gain = draft->set.gain;
     double weakest = loop->given != NULL ? weakest_of_lines : weakest_gain;
     search->least_gain = (uint8_t)fmax(gain * weakest, 1);
     search->most_gain = (uint8_t)fmax(gain, 1);
-    draft->paper.gain = compact ? yb_compact_gain(gain) : search->most_gain;
-    if (draft->paper.gain == 0)
-        draft->paper.gain = 1;
+    draft->set.gain = compact ? yb_compact_gain(gain) : search->most_gain;
+    if (draft->set.gain == 0)
+        draft->set.gain = 1;
 }
 
 static long scaled(const loop_t *loop, int trials)
@@ -292,7 +293,7 @@ static bool tell_failure(const loop_t *loop, yb_error_t *error)
 {
     if (loop->kept.nearest_score.bytes == 0)
         return yb_error_set(error, "no code of this relief could be measured");
-    yb_code_file_t *file = yb_paper_check(&loop->kept.nearest, error);
+    yb_code_file_t *file = yb_contour_code_load(&loop->kept.nearest, error);
     if (file == NULL)
         return false;
     double k = exact_k(loop, file);
@@ -308,7 +309,7 @@ static bool tell_failure(const loop_t *loop, yb_error_t *error)
 static bool finish(loop_t *loop, yb_target_result_t *result, yb_error_t *error)
 {
     for (int i = 0; i < loop->kept.count; i++) {
-        yb_code_file_t *file = yb_paper_check(&loop->kept.paper[i], error);
+        yb_code_file_t *file = yb_contour_code_load(&loop->kept.set[i], error);
         if (file == NULL)
             return false;
         result->k = exact_k(loop, file);

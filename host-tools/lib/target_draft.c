@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "compact_code.h"
+#include "contour_code.h"
 #include "fractal.h"
 #include "sketch.h"
 #include "target_moves.h"
@@ -56,7 +57,7 @@ static uint16_t choose_unit(const yb_target_draft_t *draft)
     double high_m = (double)draft->grid->high_m;
     for (int i = 0; i <= 32; i++) {
         uint16_t unit = yb_compact_unit(most_m / (1 + i / 32.0));
-        double unit_m = yb_paper_metres(unit);
+        double unit_m = yb_unit_m(unit);
         double off_m = fabs(high_m - round(high_m / unit_m) * unit_m);
         if (off_m < least - 1e-9) {
             least = off_m;
@@ -66,49 +67,49 @@ static uint16_t choose_unit(const yb_target_draft_t *draft)
     return best;
 }
 
-bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_paper_t *paper, int spacing)
+bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_contour_set_t *set, int spacing)
 {
     const yb_grid_t *grid = draft->grid;
     double width_m = yb_grid_width_m(grid);
     double depth_m = yb_grid_depth_m(grid);
-    yb_sketch_begin(paper, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
-    paper->seed = draft->seed & 127;
-    paper->profile = draft->profile;
-    paper->gain = START_GAIN;
-    paper->dimension = yb_fractal_coded(draft->dimension);
-    if (paper->profile == YB_COMPACT) {
-        paper->cell = yb_compact_cell(fmax(width_m / paper->east, depth_m / paper->north));
-        paper->unit = choose_unit(draft);
-        paper->base = (int)floor((double)grid->low_m / yb_paper_metres(paper->unit)) - 20;
-        paper->vertex_class = 7;
-        paper->gain = yb_compact_gain(START_GAIN);
-        paper->dimension = yb_compact_dimension(paper->dimension);
+    yb_sketch_begin(set, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
+    set->seed = draft->seed & 127;
+    set->profile = draft->profile;
+    set->gain = START_GAIN;
+    set->dimension = yb_fractal_coded(draft->dimension);
+    if (set->profile == YB_COMPACT) {
+        set->cell = yb_compact_cell(fmax(width_m / set->east, depth_m / set->north));
+        set->unit = choose_unit(draft);
+        set->base = (int)floor((double)grid->low_m / yb_unit_m(set->unit)) - 20;
+        set->vertex_class = 7;
+        set->gain = yb_compact_gain(START_GAIN);
+        set->dimension = yb_compact_dimension(set->dimension);
     }
-    yb_sketch_corners(paper, grid);
-    paper->corners = 0xf;
+    yb_sketch_corners(set, grid);
+    set->corners = 0xf;
     yb_lines_t frame = {.width_m = width_m, .depth_m = depth_m};
-    return yb_sketch_spot(paper, &frame, yb_sketch_summit(grid), (double)grid->high_m,
-                          YB_PAPER_MOST_BYTES);
+    return yb_sketch_spot(set, &frame, yb_sketch_summit(grid), (double)grid->high_m,
+                          YB_CONTOUR_CODE_BYTES);
 }
 
 /* The heights: even steps of height and of area, half and half. */
-void yb_target_draft_lines(const yb_target_search_t *search, yb_paper_t *paper, int count)
+void yb_target_draft_lines(const yb_target_search_t *search, yb_contour_set_t *set, int count)
 {
-    yb_target_mover_t mover = {.search = search, .paper = paper};
+    yb_target_mover_t mover = {.search = search, .set = set};
     double low_m = (double)search->grid->low_m;
     double high_m = (double)search->grid->high_m;
-    double side = fmax(paper->east, paper->north);
+    double side = fmax(set->east, set->north);
     for (int i = 0; i < count; i++) {
         double share = (i + 0.5) / count;
         double height_m =
             (yb_sketch_quantile(search->grid, share) + low_m + (high_m - low_m) * share) / 2;
         if (search->levels > 0)
             height_m = search->level_m[(int)(share * search->levels)];
-        yb_paper_t before = *paper;
+        yb_contour_set_t before = *set;
         for (int halvings = 0; halvings < 3; halvings++) {
             if (yb_target_add_line(&mover, height_m, ldexp(tolerance * side, -halvings), false))
                 break;
-            *paper = before;
+            *set = before;
         }
     }
 }

@@ -17,9 +17,9 @@ typedef struct {
 int yb_target_draft_spacing(const yb_target_draft_t *draft, int wanted);
 
 /* A code with the summit alone. False: there is no place for it. */
-bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_paper_t *paper, int spacing);
+bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_contour_set_t *set, int spacing);
 
 /* Adds the longest lines at so many heights, as far as they fit beside each other. */
-void yb_target_draft_lines(const yb_target_search_t *search, yb_paper_t *paper, int count);
+void yb_target_draft_lines(const yb_target_search_t *search, yb_contour_set_t *set, int count);
 
 #endif

@@ -33,56 +33,49 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-double yb_target_height_m(const yb_paper_t *paper, int height)
+bool yb_target_is_inner(const yb_contour_set_t *set, int x, int y)
 {
-    double unit_m = yb_paper_metres(paper->unit);
-    return paper->profile == YB_COMPACT ? (paper->base + height) * unit_m
-                                        : paper->base_m + height * unit_m;
-}
-
-bool yb_target_is_inner(const yb_paper_t *paper, int x, int y)
-{
-    int margin = paper->spacing;
-    return x >= margin && y >= margin && x <= paper->east - margin && y <= paper->north - margin;
+    int margin = set->spacing;
+    return x >= margin && y >= margin && x <= set->east - margin && y <= set->north - margin;
 }
 
 int yb_target_any(yb_target_mover_t *mover, bool spot)
 {
-    const yb_paper_t *paper = mover->paper;
+    const yb_contour_set_t *set = mover->set;
     int found = 0;
-    for (int i = 1; i < paper->contour_count; i++)
-        found += (paper->contour[i].count == 1) == spot;
+    for (int i = 1; i < set->contour_count; i++)
+        found += (set->contour[i].count == 1) == spot;
     int left = found > 0 ? yb_target_below(mover, found) : 0;
-    for (int i = 1; i < paper->contour_count; i++)
-        if ((paper->contour[i].count == 1) == spot && left-- == 0)
+    for (int i = 1; i < set->contour_count; i++)
+        if ((set->contour[i].count == 1) == spot && left-- == 0)
             return i;
     return -1;
 }
 
-static bool is_end(const yb_paper_contour_t *line, int at)
+static bool is_end(const yb_coded_contour_t *line, int at)
 {
     return line->open && (at == 0 || at == line->count - 1);
 }
 
 int yb_target_step(yb_target_mover_t *mover)
 {
-    int spacing = mover->paper->spacing;
+    int spacing = mover->set->spacing;
     double reach = spacing * 1.2 + 20 * mover->heat;
     return (int)lround(yb_target_bell(mover, reach) / spacing) * spacing;
 }
 
 bool yb_target_shift(yb_target_mover_t *mover, int line, int at, int x, int y)
 {
-    yb_paper_t *paper = mover->paper;
-    yb_step_t *point = &paper->point[yb_paper_first(paper, line) + at];
-    if (is_end(&paper->contour[line], at)) {
-        bool upright = point->x == 0 || point->x == paper->east;
+    yb_contour_set_t *set = mover->set;
+    yb_step_t *point = &set->point[yb_contour_set_first(set, line) + at];
+    if (is_end(&set->contour[line], at)) {
+        bool upright = point->x == 0 || point->x == set->east;
         x = upright ? 0 : x;
         y = upright ? y : 0;
         int along = upright ? point->y + y : point->x + x;
-        if (along <= 0 || along >= (upright ? paper->north : paper->east))
+        if (along <= 0 || along >= (upright ? set->north : set->east))
             return false;
-    } else if (!yb_target_is_inner(paper, point->x + x, point->y + y)) {
+    } else if (!yb_target_is_inner(set, point->x + x, point->y + y)) {
         return false;
     }
     point->x = (uint8_t)(point->x + x);
@@ -95,7 +88,7 @@ static bool move_point(yb_target_mover_t *mover)
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    int at = yb_target_below(mover, mover->paper->contour[line].count);
+    int at = yb_target_below(mover, mover->set->contour[line].count);
     int x = yb_target_step(mover);
     int y = yb_target_step(mover);
     return yb_target_shift(mover, line, at, x, y);
@@ -107,7 +100,7 @@ static bool move_segment(yb_target_mover_t *mover)
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    int count = mover->paper->contour[line].count;
+    int count = mover->set->contour[line].count;
     int at = yb_target_below(mover, count);
     int x = yb_target_step(mover);
     int y = yb_target_step(mover);
@@ -125,35 +118,35 @@ static bool move_two(yb_target_mover_t *mover)
 
 static bool add_point(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int line = yb_target_any(mover, false);
-    if (line < 0 || paper->contour[line].count >= 200)
+    if (line < 0 || set->contour[line].count >= 200)
         return false;
-    int count = paper->contour[line].count;
-    int at = yb_target_below(mover, paper->contour[line].open ? count - 1 : count);
-    int first = yb_paper_first(paper, line);
-    yb_step_t a = paper->point[first + at];
-    yb_step_t b = paper->point[first + (at + 1) % count];
-    int spacing = paper->spacing;
+    int count = set->contour[line].count;
+    int at = yb_target_below(mover, set->contour[line].open ? count - 1 : count);
+    int first = yb_contour_set_first(set, line);
+    yb_step_t a = set->point[first + at];
+    yb_step_t b = set->point[first + (at + 1) % count];
+    int spacing = set->spacing;
     double along = 0.25 + 0.5 * yb_target_random(mover);
     double side = yb_target_bell(mover, 0.5);
     int x = (int)lround((a.x + along * (b.x - a.x) - side * (b.y - a.y)) / spacing) * spacing;
     int y = (int)lround((a.y + along * (b.y - a.y) + side * (b.x - a.x)) / spacing) * spacing;
-    return yb_target_is_inner(paper, x, y) &&
-           yb_paper_insert(paper, line, first + at + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
+    return yb_target_is_inner(set, x, y) &&
+           yb_contour_set_insert(set, line, first + at + 1, (yb_step_t){(uint8_t)x, (uint8_t)y});
 }
 
 static bool remove_point(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    int at = yb_target_below(mover, paper->contour[line].count);
-    if (is_end(&paper->contour[line], at) ||
-        (!paper->contour[line].open && paper->contour[line].count <= 4))
+    int at = yb_target_below(mover, set->contour[line].count);
+    if (is_end(&set->contour[line], at) ||
+        (!set->contour[line].open && set->contour[line].count <= 4))
         return false;
-    yb_paper_remove(paper, line, yb_paper_first(paper, line) + at);
+    yb_contour_set_remove(set, line, yb_contour_set_first(set, line) + at);
     return true;
 }
 
@@ -169,30 +162,31 @@ uint16_t yb_target_allowed(const yb_target_mover_t *mover, double height_m)
         if (i + 1 == search->levels ||
             height_m < (search->level_m[i - 1] + search->level_m[i]) / 2) {
             int nearest = height_m < (search->level_m[i - 1] + search->level_m[i]) / 2 ? i - 1 : i;
-            return yb_paper_line_height(mover->paper, search->level_m[nearest]);
+            return yb_contour_set_line_height(mover->set, search->level_m[nearest]);
         }
-    return yb_paper_line_height(mover->paper, search->levels == 1 ? search->level_m[0] : height_m);
+    return yb_contour_set_line_height(mover->set,
+                                      search->levels == 1 ? search->level_m[0] : height_m);
 }
 
 static bool change_height(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    uint16_t *height = &paper->contour[line].height;
+    uint16_t *height = &set->contour[line].height;
     uint16_t before = *height;
-    double unit_m = yb_paper_metres(paper->unit) * (1 << paper->interval);
+    double unit_m = yb_unit_m(set->unit) * (1 << set->interval);
     double move_m = yb_target_bell(mover, mover->search->grid->std_m * (0.15 + 0.4 * mover->heat));
     if (mover->search->levels == 0 && fabs(move_m) < unit_m)
         move_m = move_m < 0 ? -unit_m : unit_m;
-    *height = yb_target_allowed(mover, yb_target_height_m(paper, before) + move_m);
+    *height = yb_target_allowed(mover, yb_contour_set_height_m(set, before) + move_m);
     return *height != before;
 }
 
 uint16_t yb_target_moved(yb_target_mover_t *mover, uint16_t height)
 {
-    double std = mover->search->grid->std_m / yb_paper_metres(mover->paper->unit);
+    double std = mover->search->grid->std_m / yb_unit_m(mover->set->unit);
     int move = (int)lround(yb_target_bell(mover, std * (0.1 + 0.4 * mover->heat)));
     if (move == 0)
         move = yb_target_below(mover, 2) == 0 ? -1 : 1;
@@ -201,12 +195,12 @@ uint16_t yb_target_moved(yb_target_mover_t *mover, uint16_t height)
 
 static bool change_frame(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int corner = yb_target_below(mover, YB_CORNERS);
-    if (paper->corners == 0)
-        paper->frame = yb_target_moved(mover, paper->frame);
-    else if ((paper->corners >> corner & 1) != 0)
-        paper->corner[corner] = yb_target_moved(mover, paper->corner[corner]);
+    if (set->corners == 0)
+        set->frame = yb_target_moved(mover, set->frame);
+    else if ((set->corners >> corner & 1) != 0)
+        set->corner[corner] = yb_target_moved(mover, set->corner[corner]);
     else
         return false;
     return true;
@@ -214,8 +208,7 @@ static bool change_frame(yb_target_mover_t *mover)
 
 static bool toggle_corner(yb_target_mover_t *mover)
 {
-    mover->paper->corners =
-        (uint8_t)(mover->paper->corners ^ 1U << yb_target_below(mover, YB_CORNERS));
+    mover->set->corners = (uint8_t)(mover->set->corners ^ 1U << yb_target_below(mover, YB_CORNERS));
     return true;
 }
 
@@ -223,15 +216,15 @@ static bool toggle_corner(yb_target_mover_t *mover)
  */
 static bool turn_line(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    int count = paper->contour[line].count;
-    yb_step_t *point = &paper->point[yb_paper_first(paper, line)];
-    yb_step_t before[YB_PAPER_POINTS];
+    int count = set->contour[line].count;
+    yb_step_t *point = &set->point[yb_contour_set_first(set, line)];
+    yb_step_t before[YB_SET_POINTS];
     memcpy(before, point, (size_t)count * sizeof(*point));
-    bool open = paper->contour[line].open;
+    bool open = set->contour[line].open;
     int from = open ? count - 1 : yb_target_below(mover, count);
     bool back = open || yb_target_below(mover, 3) == 0;
     for (int i = 0; i < count; i++)
@@ -243,24 +236,24 @@ static bool reorder(yb_target_mover_t *mover)
 {
     int line = yb_target_any(mover, false);
     int other = yb_target_any(mover, false);
-    return line > 0 && other > 0 && yb_paper_reorder(mover->paper, line, other);
+    return line > 0 && other > 0 && yb_contour_set_reorder(mover->set, line, other);
 }
 
 static bool change_seed(yb_target_mover_t *mover)
 {
-    uint8_t before = mover->paper->seed;
-    mover->paper->seed = (uint8_t)yb_target_below(mover, 128);
-    return mover->paper->seed != before;
+    uint8_t before = mover->set->seed;
+    mover->set->seed = (uint8_t)yb_target_below(mover, 128);
+    return mover->set->seed != before;
 }
 
 static bool change_gain(yb_target_mover_t *mover)
 {
-    uint8_t before = mover->paper->gain;
+    uint8_t before = mover->set->gain;
     double gain = before * exp2(yb_target_bell(mover, 0.8));
     gain = fmin(fmax(gain, mover->search->least_gain), mover->search->most_gain);
-    mover->paper->gain =
-        mover->paper->profile == YB_COMPACT ? yb_compact_gain(gain) : (uint8_t)lround(gain);
-    return mover->paper->gain != before;
+    mover->set->gain =
+        mover->set->profile == YB_COMPACT ? yb_compact_gain(gain) : (uint8_t)lround(gain);
+    return mover->set->gain != before;
 }
 
 bool yb_target_move(yb_target_mover_t *mover)

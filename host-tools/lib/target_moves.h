@@ -8,7 +8,7 @@ typedef struct {
     const yb_target_search_t *search;
     uint64_t random;
     double heat; /* 1 at the start, 0 at the end: how far changes go */
-    yb_paper_t *paper;
+    yb_contour_set_t *set;
 } yb_target_mover_t;
 
 /* splitmix64, as a share from 0 to 1 (1 excluded). */
@@ -21,8 +21,5 @@ bool yb_target_move(yb_target_mover_t *mover);
  * simplified to a tolerance in steps. False: there is none, or it does not fit.
  */
 bool yb_target_add_line(yb_target_mover_t *mover, double height_m, double tolerance, bool random);
-
-/* What a height in units is in metres. */
-double yb_target_height_m(const yb_paper_t *paper, int height);
 
 #endif

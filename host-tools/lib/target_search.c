@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "contour_code.h"
 #include "target_moves.h"
 
 /* Fines in bits: for each unit of a fault, for each bit over the budget and each height too few;
@@ -22,7 +23,7 @@ static const double off_margin = 0.005;
 typedef struct {
     const yb_target_search_t *search;
     yb_target_mover_t mover;
-    yb_paper_t now, next, best;
+    yb_contour_set_t now, next, best;
     yb_target_score_t now_score, best_score;
 } state_t;
 
@@ -33,16 +34,16 @@ static int by_value(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-static void measure_heights(const yb_target_search_t *search, const yb_paper_t *paper,
+static void measure_heights(const yb_target_search_t *search, const yb_contour_set_t *set,
                             yb_target_score_t *score)
 {
-    double height_m[YB_PAPER_CONTOURS + 2];
+    double height_m[YB_SET_CONTOURS + 2];
     int count = 0;
     double low_m = (double)search->grid->low_m;
     double high_m = (double)search->grid->high_m;
-    for (int i = 0; i < paper->contour_count; i++)
-        if (paper->contour[i].count > 1)
-            height_m[count++] = yb_target_height_m(paper, paper->contour[i].height);
+    for (int i = 0; i < set->contour_count; i++)
+        if (set->contour[i].count > 1)
+            height_m[count++] = yb_contour_set_height_m(set, set->contour[i].height);
     height_m[count++] = low_m;
     height_m[count++] = high_m;
     qsort(height_m, (size_t)count, sizeof(*height_m), by_value);
@@ -72,16 +73,16 @@ static double fines(const yb_target_search_t *search, const yb_target_score_t *s
            height_fine * (few > 0 ? few : 0) + over_fine * over;
 }
 
-bool yb_target_score(const yb_target_search_t *search, const yb_paper_t *paper,
+bool yb_target_score(const yb_target_search_t *search, const yb_contour_set_t *set,
                      yb_target_score_t *score)
 {
-    uint8_t code[YB_PAPER_MOST_BYTES];
-    yb_bits_t bits;
+    uint8_t code[YB_CONTOUR_CODE_BYTES];
+    yb_bits_t bits = {0};
     yb_line_score_t lines;
     size_t room = 2 * search->most_bytes + 100; /* drafts may be far too long */
     room = room < YB_MAX_CODE_BYTES ? room : YB_MAX_CODE_BYTES;
     *score = (yb_target_score_t){0};
-    score->bytes = yb_paper_code(paper, code, room, &bits);
+    score->bytes = yb_contour_code_write(set, code, room, &bits);
     if (score->bytes == 0)
         return false;
     if (!yb_line_judge_score(search->lines, code, score->bytes, search->longest_q8, &lines, NULL) ||
@@ -90,7 +91,7 @@ bool yb_target_score(const yb_target_search_t *search, const yb_paper_t *paper,
     score->off = yb_judge_score_m(search->judge, code, score->bytes) / search->grid->std_m;
     if (score->off < 0)
         return false;
-    measure_heights(search, paper, score);
+    measure_heights(search, set, score);
     score->k = lines.k;
     score->missing = lines.missing;
     score->bits = bits.all;
@@ -112,7 +113,7 @@ static int worth(const yb_target_search_t *search, const yb_target_score_t *scor
     return score->bytes > search->most_bytes ? 0 : yb_target_sound(search, score) ? 2 : 1;
 }
 
-static void keep(const yb_target_search_t *search, const yb_paper_t *paper,
+static void keep(const yb_target_search_t *search, const yb_contour_set_t *set,
                  const yb_target_score_t *score)
 {
     yb_target_kept_t *kept = search->kept;
@@ -122,7 +123,7 @@ static void keep(const yb_target_search_t *search, const yb_paper_t *paper,
                      ? 1
                      : worth(search, score) - worth(search, &kept->nearest_score);
     if (better > 0 || (better == 0 && score->k > kept->nearest_score.k)) {
-        kept->nearest = *paper;
+        kept->nearest = *set;
         kept->nearest_score = *score;
     }
     if (worth(search, score) < 2)
@@ -141,11 +142,11 @@ static void keep(const yb_target_search_t *search, const yb_paper_t *paper,
         if (kept->count < YB_TARGET_KEPT)
             kept->count++;
         for (int i = kept->count - 1; i > at; i--) {
-            kept->paper[i] = kept->paper[i - 1];
+            kept->set[i] = kept->set[i - 1];
             kept->score[i] = kept->score[i - 1];
         }
     }
-    kept->paper[at] = *paper;
+    kept->set[at] = *set;
     kept->score[at] = *score;
 }
 
@@ -168,7 +169,7 @@ static void try_move(state_t *state, double heat)
     }
 }
 
-bool yb_target_search_run(const yb_target_search_t *search, yb_paper_t *paper,
+bool yb_target_search_run(const yb_target_search_t *search, yb_contour_set_t *set,
                           yb_target_score_t *score)
 {
     state_t *state = calloc(1, sizeof(*state));
@@ -176,13 +177,13 @@ bool yb_target_search_run(const yb_target_search_t *search, yb_paper_t *paper,
         return false;
     state->search = search;
     state->mover =
-        (yb_target_mover_t){.search = search, .random = search->seed, .paper = &state->next};
-    state->now = *paper;
-    state->best = *paper;
-    bool good = yb_target_score(search, paper, &state->now_score);
+        (yb_target_mover_t){.search = search, .random = search->seed, .set = &state->next};
+    state->now = *set;
+    state->best = *set;
+    bool good = yb_target_score(search, set, &state->now_score);
     state->best_score = state->now_score;
     if (good)
-        keep(search, paper, &state->now_score);
+        keep(search, set, &state->now_score);
     for (long trial = 0; trial < search->trials && good; trial++) {
         double done = (double)trial / (double)search->trials;
         state->mover.heat = (1 - done) * (1 - done) * fmin(search->hot / 60, 1);
@@ -190,7 +191,7 @@ bool yb_target_search_run(const yb_target_search_t *search, yb_paper_t *paper,
             search->progress(search->context, done);
         try_move(state, search->hot * pow(search->cold / search->hot, done));
     }
-    *paper = state->best;
+    *set = state->best;
     *score = state->best_score;
     free(state);
     return good;

@@ -9,9 +9,9 @@
 #ifndef YB_TARGET_SEARCH_H
 #define YB_TARGET_SEARCH_H
 
+#include "contour_set.h"
 #include "judge.h"
 #include "line_judge.h"
-#include "paper_code.h"
 
 enum {
     YB_TARGET_LEVELS = 3, /* least number of heights that lines have */
@@ -47,10 +47,10 @@ enum {
  * comes nearest to it, within the bytes allowed if there is one.
  */
 typedef struct {
-    yb_paper_t paper[YB_TARGET_KEPT];
+    yb_contour_set_t set[YB_TARGET_KEPT];
     yb_target_score_t score[YB_TARGET_KEPT];
     int count;
-    yb_paper_t nearest;
+    yb_contour_set_t nearest;
     yb_target_score_t nearest_score; /* bytes 0: none */
 } yb_target_kept_t;
 
@@ -75,7 +75,7 @@ typedef struct {
 } yb_target_search_t;
 
 /* False: the code is impossible. */
-bool yb_target_score(const yb_target_search_t *search, const yb_paper_t *paper,
+bool yb_target_score(const yb_target_search_t *search, const yb_contour_set_t *set,
                      yb_target_score_t *score);
 
 /* Whether the map is one that may be kept, but for its K and its size. */
@@ -84,7 +84,7 @@ bool yb_target_sound(const yb_target_search_t *search, const yb_target_score_t *
 /* Improves a code, whose first contour is the summit and stays; *score becomes that of the result,
  * the cheapest met. False: the code was impossible to begin with, or no memory.
  */
-bool yb_target_search_run(const yb_target_search_t *search, yb_paper_t *paper,
+bool yb_target_search_run(const yb_target_search_t *search, yb_contour_set_t *set,
                           yb_target_score_t *score);
 
 #endif

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "paper_code.h"
 #include "simplify.h"
 
 static double any_height_m(yb_target_mover_t *mover)
@@ -17,16 +18,16 @@ bool yb_target_drop_line(yb_target_mover_t *mover)
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    yb_paper_drop(mover->paper, line);
+    yb_contour_set_drop(mover->set, line);
     return true;
 }
 
 bool yb_target_add_line(yb_target_mover_t *mover, double height_m, double tolerance, bool random)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     uint16_t height = yb_target_allowed(mover, height_m);
     yb_line_level_t level = yb_line_judge_level(
-        mover->search->lines, yb_target_height_m(paper, height), yb_paper_metres(paper->unit));
+        mover->search->lines, yb_contour_set_height_m(set, height), yb_unit_m(set->unit));
     double longest = 0;
     const yb_outline_t *chosen = NULL;
     for (int i = 0; i < level.count; i++) {
@@ -43,22 +44,22 @@ bool yb_target_add_line(yb_target_mover_t *mover, double height_m, double tolera
     for (size_t i = 0; i < chosen->count; i++)
         place[i] = (yb_place_t){chosen->point[i].x, chosen->point[i].y};
     yb_line_t line = {.closed = chosen->closed, .count = (int)chosen->count, .place = place};
-    yb_lattice_t lattice = {.width_m = paper->east,
-                            .depth_m = paper->north,
-                            .east = paper->east,
-                            .north = paper->north,
-                            .spacing = paper->spacing};
-    yb_step_t point[YB_PAPER_POINTS];
+    yb_lattice_t lattice = {.width_m = set->east,
+                            .depth_m = set->north,
+                            .east = set->east,
+                            .north = set->north,
+                            .spacing = set->spacing};
+    yb_step_t point[YB_SET_POINTS];
     int count = yb_simplify_to_lattice(&line, tolerance, &lattice, point, 200);
     free(place);
-    return count > 0 && yb_simplify_fits(paper, point, count, !chosen->closed) &&
-           yb_paper_append(paper, height, !chosen->closed, point, count) && yb_paper_split(paper);
+    return count > 0 && yb_simplify_fits(set, point, count, !chosen->closed) &&
+           yb_contour_set_append(set, height, !chosen->closed, point, count) && yb_paper_split(set);
 }
 
 static double any_tolerance(yb_target_mover_t *mover)
 {
-    const yb_paper_t *paper = mover->paper;
-    double side = paper->east > paper->north ? paper->east : paper->north;
+    const yb_contour_set_t *set = mover->set;
+    double side = set->east > set->north ? set->east : set->north;
     return side * (0.012 + 0.03 * yb_target_random(mover));
 }
 
@@ -75,34 +76,35 @@ bool yb_target_other_line(yb_target_mover_t *mover)
 
 bool yb_target_redraw_line(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int line = yb_target_any(mover, false);
     if (line < 0)
         return false;
-    double height_m = yb_target_height_m(paper, paper->contour[line].height);
+    double height_m = yb_contour_set_height_m(set, set->contour[line].height);
     height_m += yb_target_bell(mover, mover->search->grid->std_m * (0.1 + 0.5 * mover->heat));
-    yb_paper_drop(paper, line);
+    yb_contour_set_drop(set, line);
     return yb_target_add_line(mover, height_m, any_tolerance(mover), false);
 }
 
 bool yb_target_add_spot(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     const yb_grid_t *grid = mover->search->grid;
     double east_m = 0;
     double north_m = 0;
     yb_judge_worst(mover->search->judge, yb_target_random(mover), &east_m, &north_m);
     double width_m = yb_grid_width_m(grid);
     double depth_m = yb_grid_depth_m(grid);
-    int spacing = paper->spacing;
-    int x = (int)lround(east_m / width_m * paper->east / spacing) * spacing;
-    int y = (int)lround(north_m / depth_m * paper->north / spacing) * spacing;
-    if (!yb_target_is_inner(paper, x, y))
+    int spacing = set->spacing;
+    int x = (int)lround(east_m / width_m * set->east / spacing) * spacing;
+    int y = (int)lround(north_m / depth_m * set->north / spacing) * spacing;
+    if (!yb_target_is_inner(set, x, y))
         return false;
     yb_step_t at = {(uint8_t)x, (uint8_t)y};
-    uint16_t height = yb_paper_height(paper, yb_grid_height(grid, (double)x / paper->east * width_m,
-                                                            (double)y / paper->north * depth_m));
-    return yb_paper_append(paper, height, false, &at, 1);
+    uint16_t height =
+        yb_contour_set_height(set, yb_grid_height(grid, (double)x / set->east * width_m,
+                                                  (double)y / set->north * depth_m));
+    return yb_contour_set_append(set, height, false, &at, 1);
 }
 
 bool yb_target_drop_spot(yb_target_mover_t *mover)
@@ -110,18 +112,18 @@ bool yb_target_drop_spot(yb_target_mover_t *mover)
     int spot = yb_target_any(mover, true);
     if (spot < 0)
         return false;
-    yb_paper_drop(mover->paper, spot);
+    yb_contour_set_drop(mover->set, spot);
     return true;
 }
 
 bool yb_target_change_spot(yb_target_mover_t *mover)
 {
-    yb_paper_t *paper = mover->paper;
+    yb_contour_set_t *set = mover->set;
     int spot = yb_target_any(mover, true);
     if (spot < 0)
         return false;
     if (yb_target_below(mover, 2) == 0) {
-        paper->contour[spot].height = yb_target_moved(mover, paper->contour[spot].height);
+        set->contour[spot].height = yb_target_moved(mover, set->contour[spot].height);
         return true;
     }
     int x = yb_target_step(mover);

@@ -26,7 +26,7 @@ double yb_target_bell(yb_target_mover_t *mover, double size);
 /* A line (with `spot` a spot height, but not the summit) at random; -1: there is none. */
 int yb_target_any(yb_target_mover_t *mover, bool spot);
 
-bool yb_target_is_inner(const yb_paper_t *paper, int x, int y);
+bool yb_target_is_inner(const yb_contour_set_t *set, int x, int y);
 int yb_target_step(yb_target_mover_t *mover);
 
 /* Moves a point of a contour; ends of open lines slide along the frame. False: it cannot go there.

@@ -1,7 +1,7 @@
 /* The encoder as a whole, on reliefs made here. */
 #include "compact_code.h"
+#include "contour_code.h"
 #include "encode.h"
-#include "paper_code.h"
 #include "scratch.h"
 #include "sketch.h"
 
@@ -29,7 +29,7 @@ static void encode_grid(const yb_grid_t *grid, const yb_encode_task_t *task,
 static double contour_m(const yb_code_file_t *code, int contour)
 {
     const yb_vertex_t *first = &code->map.vertex[code->load.contour[contour].first];
-    return code->map.base_m + first->z_q8 * yb_paper_metres(code->map.cell) / 256;
+    return code->map.base_m + first->z_q8 * yb_unit_m(code->map.cell) / 256;
 }
 
 /* How far the map is off at the highest place. */
@@ -40,7 +40,7 @@ static double summit_error_m(const yb_code_file_t *code, const yb_grid_t *grid)
     int32_t z_q8 =
         yb_map_height(map, (uint16_t)lround(summit.x_m / yb_grid_width_m(grid) * map->east_q8),
                       (uint16_t)lround(summit.y_m / yb_grid_depth_m(grid) * map->north_q8));
-    double height_m = map->base_m + z_q8 * yb_paper_metres(map->cell) / 256;
+    double height_m = map->base_m + z_q8 * yb_unit_m(map->cell) / 256;
     return fabs(height_m - (double)grid->high_m);
 }
 
@@ -96,8 +96,8 @@ static void test_written_again(void **state)
                                  .effort = 1};
         yb_encode_result_t result;
         encode_grid(grid, &task, &result);
-        yb_paper_t draft;
-        uint8_t code[YB_PAPER_MOST_BYTES];
+        yb_contour_set_t draft;
+        uint8_t code[YB_CONTOUR_CODE_BYTES];
         yb_compact_read(result.code, &draft);
         assert_int_equal(draft.seed, 77);
         assert_int_equal(yb_compact_write(&draft, code, sizeof(code), NULL), result.code->size);

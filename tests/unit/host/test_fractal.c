@@ -1,6 +1,7 @@
 /* Dimensions measured on surfaces and lines whose dimension is known, and noise that is as rough as
  * the code says.
  */
+#include "contour_code.h"
 #include "fractal.h"
 #include "fractional.h"
 #include "roughness.h"
@@ -252,27 +253,27 @@ static void test_loop_and_bytes(void **state)
     yb_lines_free(none);
 }
 
-static void hill(yb_paper_t *paper)
+static void hill(yb_contour_set_t *set)
 {
     static const yb_step_t ring[] = {{60, 60}, {180, 60}, {180, 180}, {60, 180}};
     static const yb_step_t summit = {120, 120};
-    yb_sketch_begin(paper, (SIDE - 1) * 30.0, (SIDE - 1) * 30.0, 0, 1500, 4);
-    assert_true(yb_paper_append(paper, yb_paper_height(paper, 500), false, ring, 4));
-    assert_true(yb_paper_append(paper, yb_paper_height(paper, 1000), false, &summit, 1));
+    yb_sketch_begin(set, (SIDE - 1) * 30.0, (SIDE - 1) * 30.0, 0, 1500, 4);
+    assert_true(yb_contour_set_append(set, yb_contour_set_height(set, 500), false, ring, 4));
+    assert_true(yb_contour_set_append(set, yb_contour_set_height(set, 1000), false, &summit, 1));
 }
 
 /* The reference surface at the lattice's points. */
-static float *surface_m(const yb_paper_t *paper, bool detail)
+static float *surface_m(const yb_contour_set_t *set, bool detail)
 {
     yb_error_t error;
     uint16_t at_q8[256];
-    yb_code_file_t *file = yb_paper_check(paper, &error);
+    yb_code_file_t *file = yb_contour_code_load(set, &error);
     assert_non_null(file);
-    assert_int_equal(paper->east, paper->north);
-    for (int i = 0; i <= paper->east; i++)
+    assert_int_equal(set->east, set->north);
+    for (int i = 0; i <= set->east; i++)
         at_q8[i] = (uint16_t)(256 * i);
     file->map.detail = detail;
-    const uint32_t side = paper->east + 1U;
+    const uint32_t side = set->east + 1U;
     float *z_m = yb_map_heights_m(&file->map, at_q8, side, at_q8, side);
     assert_non_null(z_m);
     yb_code_file_free(file);
@@ -282,13 +283,13 @@ static float *surface_m(const yb_paper_t *paper, bool detail)
 /* What detail adds to a hill that is coded with the dimension: how far it rises over a few lags. */
 static void noise_rises(double dimension, double rise_m[3])
 {
-    yb_paper_t paper;
-    hill(&paper);
-    paper.gain = 16;
-    paper.dimension = yb_fractal_coded(dimension);
-    float *z_m = surface_m(&paper, true);
-    float *smooth_m = surface_m(&paper, false);
-    const uint32_t side = paper.east + 1U;
+    yb_contour_set_t set;
+    hill(&set);
+    set.gain = 16;
+    set.dimension = yb_fractal_coded(dimension);
+    float *z_m = surface_m(&set, true);
+    float *smooth_m = surface_m(&set, false);
+    const uint32_t side = set.east + 1U;
     for (uint32_t i = 0; i < side * side; i++)
         z_m[i] -= smooth_m[i];
     for (uint32_t i = 0; i < 3; i++)
@@ -324,22 +325,22 @@ static void test_gain_is_found_again(void **state)
     (void)state;
     static const uint8_t gains[] = {0, 5, 24, 100};
     for (int i = 0; i < 4; i++) {
-        yb_paper_t paper;
-        hill(&paper);
-        paper.dimension = yb_fractal_coded(1.3);
-        paper.gain = gains[i];
-        float *z_m = surface_m(&paper, true);
-        const int side = paper.east + 1;
-        yb_grid_t *grid = yb_grid_new(side, side, yb_paper_metres(paper.cell));
+        yb_contour_set_t set;
+        hill(&set);
+        set.dimension = yb_fractal_coded(1.3);
+        set.gain = gains[i];
+        float *z_m = surface_m(&set, true);
+        const int side = set.east + 1;
+        yb_grid_t *grid = yb_grid_new(side, side, yb_unit_m(set.cell));
         for (int row = 0; row < side; row++)
             memcpy(grid->height_m + row * side, z_m + (side - 1 - row) * side,
                    (size_t)side * sizeof(float));
         free(z_m);
         yb_grid_measure(grid);
-        paper.gain = 77;
-        assert_true(yb_fractal_gain(&paper, grid));
-        if (abs(paper.gain - gains[i]) > gains[i] / 25)
-            fail_msg("gain %d is found as %d", gains[i], paper.gain);
+        set.gain = 77;
+        assert_true(yb_fractal_gain(&set, grid));
+        if (abs(set.gain - gains[i]) > gains[i] / 25)
+            fail_msg("gain %d is found as %d", gains[i], set.gain);
         yb_grid_free(grid);
     }
 }
@@ -348,16 +349,16 @@ static void test_gain_follows_roughness(void **state)
 {
     (void)state;
     uint8_t gain[2];
-    yb_paper_t paper;
+    yb_contour_set_t set;
     static float other_m[SIDE * SIDE];
     for (int i = 0; i < 2; i++) {
         yb_grid_t *grid = yb_grid_new(SIDE, SIDE, 30);
         assert_true(fractional_surfaces(i == 0 ? 0.3 : 0.8, 1, 500, grid->height_m, other_m));
         yb_grid_measure(grid);
-        hill(&paper);
-        paper.dimension = yb_fractal_coded(1.4);
-        assert_true(yb_fractal_gain(&paper, grid));
-        gain[i] = paper.gain;
+        hill(&set);
+        set.dimension = yb_fractal_coded(1.4);
+        assert_true(yb_fractal_gain(&set, grid));
+        gain[i] = set.gain;
         yb_grid_free(grid);
     }
     assert_true(gain[0] > 2 * gain[1]);
@@ -368,12 +369,12 @@ static void test_gain_of_the_impossible(void **state)
     (void)state;
     static const yb_step_t across[] = {{120, 20}, {130, 20}, {130, 200}, {120, 200}};
     yb_grid_t *grid = scratch_grid(SIDE, SIDE, relief_range);
-    yb_paper_t paper;
-    hill(&paper);
-    assert_true(yb_paper_append(&paper, yb_paper_height(&paper, 700), false, across, 4));
-    paper.gain = 77;
-    assert_false(yb_fractal_gain(&paper, grid));
-    assert_int_equal(paper.gain, 77);
+    yb_contour_set_t set;
+    hill(&set);
+    assert_true(yb_contour_set_append(&set, yb_contour_set_height(&set, 700), false, across, 4));
+    set.gain = 77;
+    assert_false(yb_fractal_gain(&set, grid));
+    assert_int_equal(set.gain, 77);
     yb_grid_free(grid);
 }
 

@@ -78,14 +78,14 @@ static void test_lattice(void **state)
 {
     (void)state;
     static yb_place_t place[CIRCLE];
-    yb_step_t point[YB_PAPER_POINTS];
+    yb_step_t point[YB_SET_POINTS];
     circle(place, 3000);
     yb_line_t line = {.closed = true, .count = CIRCLE, .place = place};
     const int spacings[] = {1, 2, 4, 8, 5};
     for (int s = 0; s < 5; s++) {
         int side = 248 / spacings[s] * spacings[s];
         yb_lattice_t lattice = {10000, 10000, side, side, spacings[s]};
-        int count = yb_simplify_to_lattice(&line, 400, &lattice, point, YB_PAPER_POINTS);
+        int count = yb_simplify_to_lattice(&line, 400, &lattice, point, YB_SET_POINTS);
         assert_in_range(count, 4, 16);
         for (int i = 0; i < count; i++) {
             assert_int_equal(point[i].x % spacings[s], 0);
@@ -95,7 +95,7 @@ static void test_lattice(void **state)
     yb_place_t across[] = {{0, 3333}, {4000, 3100}, {10000, 7777}};
     yb_line_t open = {.closed = false, .count = 3, .place = across};
     yb_lattice_t lattice = {10000, 10000, 248, 248, 8};
-    int count = yb_simplify_to_lattice(&open, 1, &lattice, point, YB_PAPER_POINTS);
+    int count = yb_simplify_to_lattice(&open, 1, &lattice, point, YB_SET_POINTS);
     assert_int_equal(count, 3);
     assert_int_equal(point[0].x, 0);
     assert_int_equal(point[2].x, 248);
@@ -103,38 +103,38 @@ static void test_lattice(void **state)
     circle(place, 10);
     for (int i = 0; i < CIRCLE; i++)
         place[i].x_m += 100, place[i].y_m += 100;
-    assert_int_equal(yb_simplify_to_lattice(&line, 1, &lattice, point, YB_PAPER_POINTS), 0);
+    assert_int_equal(yb_simplify_to_lattice(&line, 1, &lattice, point, YB_SET_POINTS), 0);
 }
 
 static void test_fits(void **state)
 {
     (void)state;
-    yb_paper_t paper = {.east = 200, .north = 200};
+    yb_contour_set_t set = {.east = 200, .north = 200};
     yb_step_t square[] = {{50, 50}, {150, 50}, {150, 150}, {50, 150}};
-    assert_true(yb_simplify_fits(&paper, square, 4, false));
+    assert_true(yb_simplify_fits(&set, square, 4, false));
     yb_step_t bow[] = {{50, 50}, {150, 150}, {150, 50}, {50, 150}};
-    assert_false(yb_simplify_fits(&paper, bow, 4, false));
+    assert_false(yb_simplify_fits(&set, bow, 4, false));
     yb_step_t fold[] = {{50, 50}, {150, 50}, {100, 50}, {100, 120}};
-    assert_false(yb_simplify_fits(&paper, fold, 4, false));
+    assert_false(yb_simplify_fits(&set, fold, 4, false));
     yb_step_t thin[] = {{50, 50}, {150, 50}, {100, 50}};
-    assert_false(yb_simplify_fits(&paper, thin, 3, false));
+    assert_false(yb_simplify_fits(&set, thin, 3, false));
     yb_step_t twice[] = {{50, 50}, {100, 60}, {150, 50}, {100, 60}, {90, 120}};
-    assert_false(yb_simplify_fits(&paper, twice, 5, false));
-    assert_true(yb_paper_append(&paper, 1, false, square, 4));
+    assert_false(yb_simplify_fits(&set, twice, 5, false));
+    assert_true(yb_contour_set_append(&set, 1, false, square, 4));
     yb_step_t inside = {100, 100};
     yb_step_t on_line = {100, 50};
     yb_step_t corner = {50, 50};
-    assert_true(yb_simplify_fits(&paper, &inside, 1, false));
-    assert_false(yb_simplify_fits(&paper, &on_line, 1, false));
-    assert_false(yb_simplify_fits(&paper, &corner, 1, false));
+    assert_true(yb_simplify_fits(&set, &inside, 1, false));
+    assert_false(yb_simplify_fits(&set, &on_line, 1, false));
+    assert_false(yb_simplify_fits(&set, &corner, 1, false));
     yb_step_t through[] = {{0, 100}, {200, 100}};
     yb_step_t below[] = {{0, 20}, {200, 20}};
     yb_step_t touching[] = {{0, 20}, {50, 50}, {200, 20}};
     yb_step_t along[] = {{20, 0}, {100, 0}};
-    assert_false(yb_simplify_fits(&paper, through, 2, true));
-    assert_true(yb_simplify_fits(&paper, below, 2, true));
-    assert_false(yb_simplify_fits(&paper, touching, 3, true));
-    assert_false(yb_simplify_fits(&paper, along, 2, true));
+    assert_false(yb_simplify_fits(&set, through, 2, true));
+    assert_true(yb_simplify_fits(&set, below, 2, true));
+    assert_false(yb_simplify_fits(&set, touching, 3, true));
+    assert_false(yb_simplify_fits(&set, along, 2, true));
 }
 
 int main(void)
