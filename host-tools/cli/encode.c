@@ -119,7 +119,8 @@ static int help(void)
           "  --seed N              of the fractal detail, 0 to 127 (default 1)\n",
           stdout);
     fputs("\n"
-          "What the code says beside the relief (profile compact; it counts into --bytes):\n"
+          "What the code says beside the relief (profile compact; it counts into --bytes, and\n"
+          "into what --target-k makes small):\n"
           "  --name TEXT           the map's name, up to 63 bytes of UTF-8\n"
           "  --place               where on earth its centre lies, to about 2 m: 7 bytes\n"
           "  --certify             the error that nine tenths of all heights keep within, and K,\n"
@@ -530,9 +531,6 @@ static int run(request_t *request)
 
 static int check_request(request_t *request)
 {
-    if (request->target_k > 0 &&
-        (yb_sections_size(&request->sections) > 0 || request->task.vertices > 0))
-        return cli_usage("--target-k does not go with --name, --place, --certify and --vertices");
     if (request->task.levels > 0 && request->task.interval_m > 0)
         return cli_usage("--levels and --interval exclude each other");
     if (request->json && strcmp(request->output, "-") == 0)

@@ -202,6 +202,15 @@ int yb_compact_vertex_class(int vertices)
     return class;
 }
 
+int yb_compact_vertex_class_within(int most)
+{
+    int class = yb_compact_vertex_class(most);
+    int held = class < 8 ? 32 * (class + 1) : 2 << class;
+    if (class == 7 || class == 15)
+        held--;
+    return class > 0 && held > most ? class - 1 : class;
+}
+
 /* The base is the height of the first line, or of the frame. */
 static int zero_of(const yb_contour_set_t *set)
 {
@@ -233,7 +242,10 @@ static void put_header(coder_t *coder, const yb_contour_set_t *set)
     put_uniform(coder, coded_gain(set->gain), 16);
     put_bit(coder, MODEL_STRAIGHT, set->straight);
     put_uniform(coder,
-                set->vertices > 0 ? yb_compact_vertex_class(set->vertices) : set->vertex_class, 16);
+                set->vertices > 0
+                    ? yb_compact_vertex_class(set->vertices)
+                    : yb_compact_vertex_class_within(yb_contour_set_most_vertices(set)),
+                16);
 }
 
 /* Height of the point nearest to (x, y), in steps, of those written: the first `lines` contours
@@ -569,8 +581,7 @@ void yb_compact_read(const yb_code_file_t *file, yb_contour_set_t *set)
                               .north = (uint8_t)(map->north_q8 >> 8),
                               .spacing = load->spacing,
                               .interval = load->interval,
-                              .vertex_class =
-                                  (uint8_t)yb_compact_vertex_class(load->vertices_promised),
+                              .most_vertices = load->vertices_promised,
                               .cell = map->cell,
                               .unit = map->unit,
                               .base = load->base - READ_DEPTH,

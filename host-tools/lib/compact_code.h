@@ -23,7 +23,10 @@ uint16_t yb_compact_unit(double metres);
 uint8_t yb_compact_gain(double gain);
 uint8_t yb_compact_dimension(uint8_t dimension);
 
-/* The class of a mesh with so many vertices: 7 or less for 256. */
+/* The class of a mesh with so many vertices; and the largest class whose meshes have no more than
+ * `most`, at least 32.
+ */
 int yb_compact_vertex_class(int vertices);
+int yb_compact_vertex_class_within(int most);
 
 #endif

@@ -52,6 +52,11 @@ double yb_contour_set_height_m(const yb_contour_set_t *set, int height)
     return base_m(set) + height * yb_unit_m(set->unit);
 }
 
+int yb_contour_set_most_vertices(const yb_contour_set_t *set)
+{
+    return set->most_vertices > 0 ? set->most_vertices : UINT8_MAX;
+}
+
 int yb_contour_set_first(const yb_contour_set_t *set, int contour)
 {
     int first = 0;

@@ -32,23 +32,23 @@ typedef struct {
 
 typedef struct {
     yb_profile_t profile;
-    uint8_t east, north;  /* size of the frame in steps, 1 to 255 */
-    uint8_t spacing;      /* of the lattice: the encoder's points are multiples of it */
-    uint8_t shift;        /* paper: differences are multiples of 2^shift; 0 to 3 */
-    uint8_t interval;     /* compact: heights of lines are multiples of 2^interval units */
-    uint8_t vertex_class; /* compact: if vertices is 0 */
-    uint16_t cell;        /* metres per step, as coded: yb_unit_coded */
-    uint16_t unit;        /* metres per unit of height, as coded */
-    int16_t base_m;       /* paper */
-    int base;             /* compact: in units, instead of base_m */
+    uint8_t east, north; /* size of the frame in steps, 1 to 255 */
+    uint8_t spacing;     /* of the lattice: the encoder's points are multiples of it */
+    uint8_t shift;       /* paper: differences are multiples of 2^shift; 0 to 3 */
+    uint8_t interval;    /* compact: heights of lines are multiples of 2^interval units */
+    uint16_t cell;       /* metres per step, as coded: yb_unit_coded */
+    uint16_t unit;       /* metres per unit of height, as coded */
+    int16_t base_m;      /* paper */
+    int base;            /* compact: in units, instead of base_m */
     uint8_t seed;
     uint8_t gain;      /* 32 is what the contours themselves suggest */
     uint8_t dimension; /* D = 1 + dimension/256 */
     bool straight;     /* no smoothing */
     uint8_t corners;   /* coded corner heights: bit 0 SW, 1 SE, 2 NE, 3 NW; 0: one for the frame */
     uint16_t corner[YB_CORNERS];
-    uint16_t frame; /* its height if no corner is coded */
-    int vertices;   /* of the mesh, which only the engine can count; 0: not known yet */
+    uint16_t frame;    /* its height if no corner is coded */
+    int vertices;      /* of the mesh, which only the engine can count; 0: not known yet … */
+    int most_vertices; /* … then the most that it may have; 0: 255 */
     /* compact: what follows the relief, borrowed; NULL: nothing */
     const yb_sections_t *sections;
     int contour_count;
@@ -71,6 +71,9 @@ uint16_t yb_contour_set_line_height(const yb_contour_set_t *set, double height_m
 
 /* What a height in units is in metres. */
 double yb_contour_set_height_m(const yb_contour_set_t *set, int height);
+
+/* The most vertices that the mesh may have, whether they are known or not. */
+int yb_contour_set_most_vertices(const yb_contour_set_t *set);
 
 /* Index of a contour's first point. */
 int yb_contour_set_first(const yb_contour_set_t *set, int contour);

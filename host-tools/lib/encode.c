@@ -107,6 +107,16 @@ long yb_encode_trials(long usual, int effort)
     return usual;
 }
 
+bool yb_encode_has_room(const yb_encode_task_t *task, yb_error_t *error)
+{
+    size_t sections = yb_sections_size(task->sections);
+    return task->most_bytes >= YB_ENCODE_LEAST_BYTES + sections ||
+           yb_error_set(error, "%zu bytes are too few for a map%s: the least is %zu",
+                        task->most_bytes,
+                        sections > 0 ? " with the name, place or certificate asked for" : "",
+                        YB_ENCODE_LEAST_BYTES + sections);
+}
+
 /* Whether all levels are multiples of a height. */
 static bool divides(const encoder_t *encoder, double height_m)
 {
@@ -156,10 +166,9 @@ static void begin_set(const encoder_t *encoder, yb_contour_set_t *set, int spaci
     set->seed = task->seed;
     set->profile = task->profile;
     set->sections = task->sections;
+    set->most_vertices = task->vertices;
     if (set->profile == YB_COMPACT) {
         set->cell = yb_compact_cell(fmax(width / set->east, depth / set->north));
-        set->vertex_class =
-            (uint8_t)yb_compact_vertex_class(task->vertices > 0 ? task->vertices : 255);
         choose_unit(encoder, set);
     }
     yb_sketch_corners(set, grid);
@@ -394,19 +403,15 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
                    yb_encode_result_t *result, yb_error_t *error)
 {
     memset(result, 0, sizeof(*result));
-    size_t sections = yb_sections_size(task->sections);
-    if (task->most_bytes < YB_ENCODE_LEAST_BYTES + sections)
-        return yb_error_set(error, "%zu bytes are too few for a map%s: the least is %zu",
-                            task->most_bytes,
-                            sections > 0 ? " with the name, place or certificate asked for" : "",
-                            YB_ENCODE_LEAST_BYTES + sections);
+    if (!yb_encode_has_room(task, error))
+        return false;
     encoder_t *encoder = calloc(1, sizeof(*encoder));
     if (encoder == NULL)
         return yb_error_set(error, "out of memory");
     encoder->grid = grid;
     encoder->task = task;
     encoder->given = given;
-    encoder->side = judge_side(task->most_bytes - sections);
+    encoder->side = judge_side(task->most_bytes - yb_sections_size(task->sections));
     encoder->judge = yb_judge_new(grid, encoder->side);
     bool good = encoder->judge != NULL;
     if (!good)

@@ -47,6 +47,9 @@ typedef struct {
 /* Trials at an effort, of so many at the default one: each step triples them. */
 long yb_encode_trials(long usual, int effort);
 
+/* Whether the task's bytes can hold a map with its sections. False with a sentence. */
+bool yb_encode_has_room(const yb_encode_task_t *task, yb_error_t *error);
+
 /* Codes a grid. False with a sentence on failure, else the caller frees result->code by
  * yb_code_file_free. Equal input gives equal bytes.
  */

@@ -276,7 +276,7 @@ bool yb_line_judge_score(yb_line_judge_t *judge, const uint8_t *code, size_t siz
     yb_map_t *map = &judge->map;
     if (yb_map_load(map, &judge->load, code, size) != YB_OK || !heights_are_sane(map))
         return false;
-    *score = (yb_line_score_t){.vertices = map->vertex_count};
+    *score = (yb_line_score_t){0};
     double sum = 0;
     double lengths = 0;
     double unit_m = yb_unit_m(map->unit);

@@ -29,9 +29,8 @@ void yb_line_judge_free(yb_line_judge_t *judge);
 
 typedef struct {
     double k;
-    int lines;    /* with a length */
-    int missing;  /* of them: no original, or no reproduction */
-    int vertices; /* of the mesh */
+    int lines;   /* with a length */
+    int missing; /* of them: no original, or no reproduction */
 } yb_line_score_t;
 
 /* K of a code, its surface refined to edges of longest_q8 (YB_REFERENCE_Q8: what evaluate says, but

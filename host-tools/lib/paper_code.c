@@ -51,6 +51,12 @@ static void put_bits(writer_t *writer, unsigned value, int count)
     }
 }
 
+static int promised_vertices(const yb_contour_set_t *set)
+{
+    int vertices = set->vertices > 0 ? set->vertices : yb_contour_set_most_vertices(set);
+    return vertices < UINT8_MAX ? vertices : UINT8_MAX;
+}
+
 static void put_header(writer_t *writer, const yb_contour_set_t *set)
 {
     unsigned flags = set->shift | (set->straight ? 4U : 0U);
@@ -60,7 +66,7 @@ static void put_header(writer_t *writer, const yb_contour_set_t *set)
     put_byte(writer, YB_FORMAT_VERSION << 4);
     put_byte(writer, flags);
     put_byte(writer, (unsigned)set->contour_count);
-    put_byte(writer, set->vertices > 0 ? (unsigned)set->vertices : UINT8_MAX);
+    put_byte(writer, (unsigned)promised_vertices(set));
     put_byte(writer, set->east);
     put_byte(writer, set->north);
     put_pair(writer, set->cell);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "certificate.h"
 #include "compact_code.h"
 #include "comparison.h"
 #include "contour_code.h"
@@ -127,8 +128,7 @@ static bool make_draft(loop_t *loop, int wanted_spacing, int lines)
 {
     draft_t *draft = &loop->draft[loop->drafts];
     const yb_target_draft_t begin = {.grid = loop->grid,
-                                     .profile = loop->task->profile,
-                                     .seed = loop->task->seed & 127,
+                                     .task = loop->task,
                                      .dimension = loop->dimension,
                                      .level_m = loop->level_m,
                                      .levels = loop->levels};
@@ -314,6 +314,11 @@ static bool finish(loop_t *loop, yb_target_result_t *result, yb_error_t *error)
             return false;
         result->k = exact_k(loop, file);
         if (result->k >= loop->k && file->size <= loop->task->most_bytes) {
+            if (file->sections.certified &&
+                !yb_certificate_fill(&file, loop->grid, loop->given, error)) {
+                yb_code_file_free(file);
+                return false;
+            }
             result->encoded.code = file;
             result->encoded.rmse_m = yb_judge_map_rmse_m(&file->map, loop->grid);
             result->encoded.std_m = loop->grid->std_m;
@@ -360,9 +365,8 @@ static bool run(const yb_grid_t *grid, const yb_lines_t *given, const yb_encode_
                 double target_k, yb_target_result_t *result, yb_error_t *error)
 {
     memset(result, 0, sizeof(*result));
-    if (task->most_bytes < YB_ENCODE_LEAST_BYTES)
-        return yb_error_set(error, "%zu bytes are too few for a map: the least is %d",
-                            task->most_bytes, YB_ENCODE_LEAST_BYTES);
+    if (!yb_encode_has_room(task, error))
+        return false;
     loop_t *loop = calloc(1, sizeof(*loop));
     if (loop == NULL)
         return yb_error_set(error, "out of memory");

@@ -17,14 +17,20 @@ enum {
 /* A frame may be so much wider or narrower than the relief. */
 static const double most_bent = 0.006;
 
-/* Of the lines, as a share of the frame's longer side. */
-static const double tolerance = 0.025;
+/* Of the lines, as shares of the frame's longer side: finer where a line does not fit beside the
+ * others; coarser where the mesh would have too many vertices.
+ */
+static const double tolerances[] = {0.025, 0.0125, 0.00625, 0.05, 0.1, 0.2};
+enum {
+    TOLERANCES = sizeof(tolerances) / sizeof(tolerances[0]),
+    FINE_ONES = 3
+};
 
 int yb_target_draft_spacing(const yb_target_draft_t *draft, int wanted)
 {
     double longest_m = fmax(yb_grid_width_m(draft->grid), yb_grid_depth_m(draft->grid));
     double shortest_m = fmin(yb_grid_width_m(draft->grid), yb_grid_depth_m(draft->grid));
-    bool paper = draft->profile == YB_PAPER;
+    bool paper = draft->task->profile == YB_PAPER;
     int best = wanted;
     double least = HUGE_VAL;
     for (int i = 0; i <= 2 * MOST_SPACING; i++) {
@@ -70,18 +76,20 @@ static uint16_t choose_unit(const yb_target_draft_t *draft)
 bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_contour_set_t *set, int spacing)
 {
     const yb_grid_t *grid = draft->grid;
+    const yb_encode_task_t *task = draft->task;
     double width_m = yb_grid_width_m(grid);
     double depth_m = yb_grid_depth_m(grid);
     yb_sketch_begin(set, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
-    set->seed = draft->seed & 127;
-    set->profile = draft->profile;
+    set->seed = task->seed & 127;
+    set->profile = task->profile;
+    set->sections = task->sections;
+    set->most_vertices = task->vertices;
     set->gain = START_GAIN;
     set->dimension = yb_fractal_coded(draft->dimension);
     if (set->profile == YB_COMPACT) {
         set->cell = yb_compact_cell(fmax(width_m / set->east, depth_m / set->north));
         set->unit = choose_unit(draft);
         set->base = (int)floor((double)grid->low_m / yb_unit_m(set->unit)) - 20;
-        set->vertex_class = 7;
         set->gain = yb_compact_gain(START_GAIN);
         set->dimension = yb_compact_dimension(set->dimension);
     }
@@ -92,24 +100,33 @@ bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_contour_set_t *set
                           YB_CONTOUR_CODE_BYTES);
 }
 
+static void draft_line(yb_target_mover_t *mover, double height_m)
+{
+    yb_contour_set_t *set = mover->set;
+    const yb_contour_set_t before = *set;
+    double side = fmax(set->east, set->north);
+    bool refused = false;
+    for (int i = 0; i < TOLERANCES && (i < FINE_ONES || refused); i++) {
+        bool fits = yb_target_add_line(mover, height_m, tolerances[i] * side, false);
+        if (fits && yb_target_possible(mover->search, set))
+            return;
+        refused = refused || fits;
+        *set = before;
+    }
+}
+
 /* The heights: even steps of height and of area, half and half. */
 void yb_target_draft_lines(const yb_target_search_t *search, yb_contour_set_t *set, int count)
 {
     yb_target_mover_t mover = {.search = search, .set = set};
     double low_m = (double)search->grid->low_m;
     double high_m = (double)search->grid->high_m;
-    double side = fmax(set->east, set->north);
     for (int i = 0; i < count; i++) {
         double share = (i + 0.5) / count;
         double height_m =
             (yb_sketch_quantile(search->grid, share) + low_m + (high_m - low_m) * share) / 2;
         if (search->levels > 0)
             height_m = search->level_m[(int)(share * search->levels)];
-        yb_contour_set_t before = *set;
-        for (int halvings = 0; halvings < 3; halvings++) {
-            if (yb_target_add_line(&mover, height_m, ldexp(tolerance * side, -halvings), false))
-                break;
-            *set = before;
-        }
+        draft_line(&mover, height_m);
     }
 }

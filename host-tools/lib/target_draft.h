@@ -2,12 +2,12 @@
 #ifndef YB_TARGET_DRAFT_H
 #define YB_TARGET_DRAFT_H
 
+#include "encode.h"
 #include "target_search.h"
 
 typedef struct {
     const yb_grid_t *grid;
-    yb_profile_t profile;
-    uint8_t seed;
+    const yb_encode_task_t *task;
     double dimension;
     const double *level_m; /* heights that lines must have, rising */
     int levels;            /* and how many; 0: any height */

@@ -73,20 +73,31 @@ static double fines(const yb_target_search_t *search, const yb_target_score_t *s
            height_fine * (few > 0 ? few : 0) + over_fine * over;
 }
 
+/* Drafts may be far too long. */
+static size_t room_of(const yb_target_search_t *search)
+{
+    size_t room = 2 * search->most_bytes + 100;
+    return room < YB_MAX_CODE_BYTES ? room : YB_MAX_CODE_BYTES;
+}
+
+bool yb_target_possible(const yb_target_search_t *search, const yb_contour_set_t *set)
+{
+    uint8_t code[YB_CONTOUR_CODE_BYTES];
+    size_t size = yb_contour_code_write(set, code, room_of(search), NULL);
+    return size > 0 && yb_judge_score_m(search->judge, code, size) >= 0;
+}
+
 bool yb_target_score(const yb_target_search_t *search, const yb_contour_set_t *set,
                      yb_target_score_t *score)
 {
     uint8_t code[YB_CONTOUR_CODE_BYTES];
     yb_bits_t bits = {0};
     yb_line_score_t lines;
-    size_t room = 2 * search->most_bytes + 100; /* drafts may be far too long */
-    room = room < YB_MAX_CODE_BYTES ? room : YB_MAX_CODE_BYTES;
     *score = (yb_target_score_t){0};
-    score->bytes = yb_contour_code_write(set, code, room, &bits);
+    score->bytes = yb_contour_code_write(set, code, room_of(search), &bits);
     if (score->bytes == 0)
         return false;
-    if (!yb_line_judge_score(search->lines, code, score->bytes, search->longest_q8, &lines, NULL) ||
-        lines.vertices > YB_TARGET_MOST_VERTICES)
+    if (!yb_line_judge_score(search->lines, code, score->bytes, search->longest_q8, &lines, NULL))
         return false;
     score->off = yb_judge_score_m(search->judge, code, score->bytes) / search->grid->std_m;
     if (score->off < 0)

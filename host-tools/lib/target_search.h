@@ -14,8 +14,7 @@
 #include "line_judge.h"
 
 enum {
-    YB_TARGET_LEVELS = 3, /* least number of heights that lines have */
-    YB_TARGET_MOST_VERTICES = 255
+    YB_TARGET_LEVELS = 3 /* least number of heights that lines have */
 };
 
 /* The heights of the lines, with the lowest and the highest place of the relief, leave no gap that
@@ -73,6 +72,9 @@ typedef struct {
     void (*progress)(void *context, double share); /* may be NULL */
     void *context;
 } yb_target_search_t;
+
+/* Whether the engine makes a map of a code, and one of no more vertices than it may have. */
+bool yb_target_possible(const yb_target_search_t *search, const yb_contour_set_t *set);
 
 /* False: the code is impossible. */
 bool yb_target_score(const yb_target_search_t *search, const yb_contour_set_t *set,

@@ -79,7 +79,6 @@ static void test_bad_usage(void **state)
     expect_failure(dem, "--seed 256", 2, "from 0 to 127");
     expect_failure(dem, "--target-k 1.5", 2, "above 0, at most 1");
     expect_failure(dem, "--target-k alike", 2, "above 0, at most 1");
-    expect_failure(dem, "--target-k 0.8 --name Fuji", 2, "does not go with");
     expect_failure(dem, "--window 1 2 3", 2, "four numbers");
     expect_failure(dem, "--window 5 0 1 1", 2, "is empty");
     expect_failure(dem, "--center 200 0", 2, "longitude");
@@ -365,6 +364,11 @@ static void test_target_k(void **state)
     assert_non_null(made);
     assert_true(fabs(json_number_value(json_object_get(made, "k")) - k) < 1e-5);
     json_decref(made);
+    assert_int_equal(encode(dem, "--force --target-k 0.5 --bytes 80 --name Monte --place --certify "
+                                 "--vertices 64"),
+                     0);
+    assert_non_null(strstr(said, "K 0."));
+    assert_non_null(strstr(said, "certified: nine tenths of the heights within "));
     remove(scratch_path("out.yb"));
 }
 

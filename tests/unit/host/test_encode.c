@@ -189,12 +189,37 @@ static void test_lines(void **state)
     yb_lines_free(lines);
 }
 
+static void test_vertices_are_kept(void **state)
+{
+    (void)state;
+    const yb_profile_t profiles[] = {YB_COMPACT, YB_PAPER};
+    yb_grid_t *grid = scratch_grid(64, 64, relief_range);
+    for (int i = 0; i < 2; i++) {
+        yb_encode_task_t task = {
+            .profile = profiles[i], .most_bytes = 250, .seed = 1, .effort = 1, .vertices = 40};
+        yb_encode_result_t result;
+        encode_grid(grid, &task, &result);
+        assert_true(result.code->map.vertex_count <= 40);
+        yb_code_file_free(result.code);
+    }
+    yb_grid_free(grid);
+    assert_int_equal(yb_compact_vertex_class_within(32), 0);
+    assert_int_equal(yb_compact_vertex_class_within(40), 0);
+    assert_int_equal(yb_compact_vertex_class_within(64), 1);
+    assert_int_equal(yb_compact_vertex_class_within(254), 6);
+    assert_int_equal(yb_compact_vertex_class_within(255), 7);
+    assert_int_equal(yb_compact_vertex_class_within(511), 7);
+    assert_int_equal(yb_compact_vertex_class_within(512), 8);
+    assert_int_equal(yb_compact_vertex_class_within(65535), 15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_near_the_relief), cmocka_unit_test(test_same_bytes_again),
-        cmocka_unit_test(test_written_again),   cmocka_unit_test(test_budgets),
-        cmocka_unit_test(test_levels_are_kept), cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_near_the_relief),   cmocka_unit_test(test_same_bytes_again),
+        cmocka_unit_test(test_written_again),     cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_levels_are_kept),   cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_vertices_are_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
