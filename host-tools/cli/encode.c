@@ -11,10 +11,8 @@
 #include <jansson.h>
 
 #include "encode.h"
-#include "fractal.h"
 #include "ground.h"
 #include "line_crossings.h"
-#include "line_grid.h"
 #include "output.h"
 #include "part.h"
 #include "scan.h"
@@ -307,8 +305,7 @@ static void hex_of(const yb_code_file_t *code, char *text)
         snprintf(text + 2 * i, 3, "%02x", code->bytes[i]);
 }
 
-static void tell_json(const request_t *request, const yb_encode_result_t *result, double k,
-                      const yb_fractal_report_t *fractal)
+static void tell_json(const request_t *request, const yb_encode_result_t *result)
 {
     const yb_code_file_t *code = result->code;
     int points = point_count(code);
@@ -326,9 +323,9 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
     json_object_set_new(root, "rmse_m", json_real(result->rmse_m));
     json_object_set_new(root, "nrmse", json_real(result->rmse_m / result->std_m));
     if (request->target_k > 0)
-        json_object_set_new(root, "k", json_real(k));
-    json_object_set_new(root, "dimension", json_real(result->dimension));
-    json_object_set_new(root, "fractal", yb_fractal_json(fractal));
+        json_object_set_new(root, "k", json_real(result->k));
+    json_object_set_new(root, "dimension", json_real(result->fractal.dimension));
+    json_object_set_new(root, "fractal", yb_fractal_json(&result->fractal));
     json_object_set_new(root, "trials", json_integer(result->trials));
     if (request->hex) {
         char text[2 * YB_MAX_CODE_BYTES + 1] = "";
@@ -341,8 +338,7 @@ static void tell_json(const request_t *request, const yb_encode_result_t *result
 }
 
 /* In words; not on the standard output if the code goes there. */
-static void tell_text(const request_t *request, const yb_encode_result_t *result, double k,
-                      const yb_fractal_report_t *fractal)
+static void tell_text(const request_t *request, const yb_encode_result_t *result)
 {
     FILE *to = strcmp(request->output, "-") == 0 ? stderr : stdout;
     const yb_code_file_t *code = result->code;
@@ -357,15 +353,16 @@ static void tell_text(const request_t *request, const yb_encode_result_t *result
     fprintf(to, "RMSE %.1f m, NRMSE %.3f (without detail)\n", result->rmse_m,
             result->rmse_m / result->std_m);
     if (request->target_k > 0)
-        fprintf(to, "K %.4f (with detail)\n", k);
+        fprintf(to, "K %.4f (with detail)\n", result->k);
     if (code->sections.certified)
         fprintf(to, "certified: nine tenths of the heights within %u m, K %.2f\n",
                 yb_certified_error_m(code->map.certified_error), code->map.certified_k / 255.0);
-    if (fractal->boxes.sizes > 0)
-        fprintf(to, "dimension %.2f (boxes, r² %.3f, %.4g to %.4g m)\n", result->dimension,
-                fractal->boxes.r2, fractal->boxes.from_m, fractal->boxes.to_m);
+    const yb_fractal_fit_t *boxes = &result->fractal.boxes;
+    fprintf(to, "dimension %.2f ", result->fractal.dimension);
+    if (boxes->sizes > 0)
+        fprintf(to, "(boxes, r² %.3f, %.4g to %.4g m)\n", boxes->r2, boxes->from_m, boxes->to_m);
     else
-        fprintf(to, "dimension %.2f (the lines are too short to measure it)\n", result->dimension);
+        fprintf(to, "(the lines are too short to measure it)\n");
     if (request->hex) {
         char text[2 * YB_MAX_CODE_BYTES + 1] = "";
         hex_of(code, text);
@@ -386,36 +383,23 @@ static bool find_place(request_t *request, const char *projection, double x, dou
                         request->input);
 }
 
-/* The coding itself: as near to the relief as the bytes allow, or up to a similarity. *k stays as
- * it is in the first case.
- */
+/* The coding itself: as near to the relief as the bytes allow, or up to a similarity. */
 static bool code_grid(const request_t *request, const yb_grid_t *grid, yb_encode_result_t *result,
-                      double *k, yb_error_t *error)
+                      yb_error_t *error)
 {
-    yb_target_result_t found;
-    if (request->target_k <= 0)
-        return yb_encode_grid(grid, &request->task, result, error);
-    bool good = yb_target_grid(grid, &request->task, request->target_k, &found, error);
-    *result = found.encoded;
-    *k = found.k;
-    return good;
+    return request->target_k > 0
+               ? yb_target_grid(grid, &request->task, request->target_k, result, error)
+               : yb_encode_grid(grid, &request->task, result, error);
 }
 
 static bool code_lines(const request_t *request, const yb_lines_t *lines,
-                       const yb_encode_task_t *task, yb_encode_result_t *result, double *k,
-                       yb_error_t *error)
+                       const yb_encode_task_t *task, yb_encode_result_t *result, yb_error_t *error)
 {
-    yb_target_result_t found;
-    if (request->target_k <= 0)
-        return yb_encode_lines(lines, task, result, error);
-    bool good = yb_target_lines(lines, task, request->target_k, &found, error);
-    *result = found.encoded;
-    *k = found.k;
-    return good;
+    return request->target_k > 0 ? yb_target_lines(lines, task, request->target_k, result, error)
+                                 : yb_encode_lines(lines, task, result, error);
 }
 
-static bool encode_raster(request_t *request, yb_encode_result_t *result, double *k,
-                          yb_fractal_report_t *fractal, yb_error_t *error)
+static bool encode_raster(request_t *request, yb_encode_result_t *result, yb_error_t *error)
 {
     yb_grid_t *grid = yb_grid_read(request->input, &request->part.window, GRID_SIDE, error);
     if (grid == NULL)
@@ -429,14 +413,12 @@ static bool encode_raster(request_t *request, yb_encode_result_t *result, double
     double x = grid->transform[0] + grid->columns * grid->transform[1] / 2;
     double y = grid->transform[3] + grid->rows * grid->transform[5] / 2;
     bool good = find_place(request, grid->projection, x, y, error) &&
-                yb_fractal_of_grid(grid, fractal, error) &&
-                code_grid(request, grid, result, k, error);
+                code_grid(request, grid, result, error);
     yb_grid_free(grid);
     return good;
 }
 
-static bool encode_vector(request_t *request, yb_encode_result_t *result, double *k,
-                          yb_fractal_report_t *fractal, yb_error_t *error)
+static bool encode_vector(request_t *request, yb_encode_result_t *result, yb_error_t *error)
 {
     yb_lines_t *lines =
         yb_lines_from_vector(request->input, request->part.field, &request->part.window, error);
@@ -449,14 +431,12 @@ static bool encode_vector(request_t *request, yb_encode_result_t *result, double
     bool good = yb_line_crossings_none(lines, request->input, error) &&
                 find_place(request, origin->projection, origin->west_m + lines->width_m / 2,
                            origin->south_m + lines->depth_m / 2, error) &&
-                yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
-                code_lines(request, lines, &request->task, result, k, error);
+                code_lines(request, lines, &request->task, result, error);
     yb_lines_free(lines);
     return good;
 }
 
-static bool encode_scan(request_t *request, yb_encode_result_t *result, double *k,
-                        yb_fractal_report_t *fractal, yb_error_t *error)
+static bool encode_scan(request_t *request, yb_encode_result_t *result, yb_error_t *error)
 {
     yb_scan_scale_t scale = {request->base_m, request->task.interval_m,
                              request->part.window.cell_m};
@@ -468,9 +448,8 @@ static bool encode_scan(request_t *request, yb_encode_result_t *result, double *
                 request->input, YB_GRID_DEFAULT_CELL_M);
     yb_encode_task_t task = request->task;
     task.interval_m = 0; /* all lines stay at the heights they were given */
-    bool good = find_place(request, NULL, 0, 0, error) &&
-                yb_fractal_of_lines(lines, yb_line_grid_cell_m(lines), fractal, error) &&
-                code_lines(request, lines, &task, result, k, error);
+    bool good =
+        find_place(request, NULL, 0, 0, error) && code_lines(request, lines, &task, result, error);
     yb_lines_free(lines);
     return good;
 }
@@ -507,25 +486,20 @@ static int run(request_t *request)
     if (!yb_output_allowed(request->output, request->force, &error))
         return cli_fail("%s", error.text);
     bool vector = request->part.field != NULL || (!scan && yb_lines_is_vector(request->input));
-    yb_fractal_report_t fractal = {0};
-    double k = 0;
-    bool good = scan     ? encode_scan(request, &result, &k, &fractal, &error)
-                : vector ? encode_vector(request, &result, &k, &fractal, &error)
-                         : encode_raster(request, &result, &k, &fractal, &error);
+    bool good = scan     ? encode_scan(request, &result, &error)
+                : vector ? encode_vector(request, &result, &error)
+                         : encode_raster(request, &result, &error);
     if (good && request->task.progress != NULL)
         request->task.progress(NULL, 1);
-    if (!good) {
-        yb_fractal_free(&fractal);
+    if (!good)
         return cli_fail("%s", error.text);
-    }
     good = yb_output_write(request->output, request->force, result.code->bytes, result.code->size,
                            &error);
     if (good && request->json)
-        tell_json(request, &result, k, &fractal);
+        tell_json(request, &result);
     else if (good && !request->quiet)
-        tell_text(request, &result, k, &fractal);
-    yb_fractal_free(&fractal);
-    yb_code_file_free(result.code);
+        tell_text(request, &result);
+    yb_encode_result_free(&result);
     return good ? CLI_OK : cli_fail("%s", error.text);
 }
 

@@ -9,7 +9,6 @@
 #include "certificate.h"
 #include "compact_code.h"
 #include "contour_code.h"
-#include "fractal.h"
 #include "judge.h"
 #include "line_grid.h"
 #include "search.h"
@@ -115,6 +114,13 @@ bool yb_encode_has_room(const yb_encode_task_t *task, yb_error_t *error)
                         task->most_bytes,
                         sections > 0 ? " with the name, place or certificate asked for" : "",
                         YB_ENCODE_LEAST_BYTES + sections);
+}
+
+void yb_encode_result_free(yb_encode_result_t *result)
+{
+    yb_code_file_free(result->code);
+    yb_fractal_free(&result->fractal);
+    result->code = NULL;
 }
 
 /* Whether all levels are multiples of a height. */
@@ -355,30 +361,15 @@ static bool search_best(encoder_t *encoder)
     return search_drafts(encoder, encoder->drafts, warm, 1 - first_part);
 }
 
-/* Dimension of the relief's contour lines in full detail. */
-static bool measure_dimension(const encoder_t *encoder, double *dimension, yb_error_t *error)
-{
-    if (encoder->given != NULL) {
-        *dimension = yb_fractal_boxes(encoder->given, encoder->grid->cell_m);
-        return true;
-    }
-    yb_fractal_report_t report;
-    if (!yb_fractal_of_grid(encoder->grid, &report, error))
-        return false;
-    *dimension = report.dimension;
-    yb_fractal_free(&report);
-    return true;
-}
-
 static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error_t *error)
 {
     if (!choose_levels(encoder, error) || !make_drafts(encoder, error) ||
-        !measure_dimension(encoder, &result->dimension, error))
+        !yb_fractal_of_relief(encoder->grid, encoder->given, &result->fractal, error))
         return false;
     if (!search_best(encoder))
         return yb_error_set(error, "out of memory");
     draft_t *best = &encoder->draft[0];
-    best->set.dimension = yb_fractal_coded(result->dimension);
+    best->set.dimension = yb_fractal_coded(result->fractal.dimension);
     if (best->set.profile == YB_COMPACT)
         best->set.dimension = yb_compact_dimension(best->set.dimension);
     /* Lines say nothing of what lies between them: the noise stays as strong as they suggest. */
@@ -420,7 +411,7 @@ static bool encode(const yb_grid_t *grid, const yb_lines_t *given, const yb_enco
     if (good && task->sections != NULL && task->sections->certified)
         good = yb_certificate_fill(&result->code, grid, given, error);
     if (!good)
-        yb_code_file_free(result->code);
+        yb_encode_result_free(result);
     yb_judge_free(encoder->judge);
     free(encoder);
     return good;

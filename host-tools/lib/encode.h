@@ -9,6 +9,7 @@
 
 #include "code_file.h"
 #include "contour_lines.h"
+#include "fractal.h"
 #include "grid.h"
 #include "sections.h"
 
@@ -38,11 +39,15 @@ typedef struct {
 
 typedef struct {
     yb_code_file_t *code;
-    double rmse_m;    /* smooth surface against the relief */
-    double std_m;     /* of the relief */
-    double dimension; /* measured on all contour lines */
+    double rmse_m; /* smooth surface against the relief */
+    double std_m;  /* of the relief */
+    double k; /* of a code made to reach one (target.h), as yb_fidelity_measure says it; or 0 */
+    yb_fractal_report_t fractal; /* of the relief's contour lines */
     long trials;
 } yb_encode_result_t;
+
+/* Frees what a result owns. */
+void yb_encode_result_free(yb_encode_result_t *result);
 
 /* Trials at an effort, of so many at the default one: each step triples them. */
 long yb_encode_trials(long usual, int effort);
@@ -50,8 +55,8 @@ long yb_encode_trials(long usual, int effort);
 /* Whether the task's bytes can hold a map with its sections. False with a sentence. */
 bool yb_encode_has_room(const yb_encode_task_t *task, yb_error_t *error);
 
-/* Codes a grid. False with a sentence on failure, else the caller frees result->code by
- * yb_code_file_free. Equal input gives equal bytes.
+/* Codes a grid. False with a sentence on failure, else the caller frees the result. Equal input
+ * gives equal bytes.
  */
 bool yb_encode_grid(const yb_grid_t *grid, const yb_encode_task_t *task, yb_encode_result_t *result,
                     yb_error_t *error);

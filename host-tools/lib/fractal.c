@@ -167,8 +167,8 @@ static bool measure_contours(const yb_lines_t *lines, double cell_m, const int *
     return true;
 }
 
-static bool measure(const yb_lines_t *lines, double cell_m, bool contours,
-                    yb_fractal_report_t *report)
+bool yb_fractal_of_lines(const yb_lines_t *lines, double cell_m, yb_fractal_report_t *report,
+                         yb_error_t *error)
 {
     int count = 0;
     *report = (yb_fractal_report_t){.dimension = YB_FRACTAL_LEAST};
@@ -176,18 +176,12 @@ static bool measure(const yb_lines_t *lines, double cell_m, bool contours,
     report->level = malloc(((size_t)count + 1) * sizeof(*report->level));
     const bool good = order != NULL && report->level != NULL &&
                       measure_boxes(lines, cell_m, order, count, report) &&
-                      (!contours || measure_contours(lines, cell_m, order, count, report));
+                      measure_contours(lines, cell_m, order, count, report);
     free(order);
-    if (!good)
-        yb_fractal_free(report);
-    return good;
-}
-
-bool yb_fractal_of_lines(const yb_lines_t *lines, double cell_m, yb_fractal_report_t *report,
-                         yb_error_t *error)
-{
-    return measure(lines, cell_m, true, report) ||
-           yb_error_set(error, "not enough memory to measure the fractal dimension");
+    if (good)
+        return true;
+    yb_fractal_free(report);
+    return yb_error_set(error, "not enough memory to measure the fractal dimension");
 }
 
 bool yb_fractal_of_grid(const yb_grid_t *grid, yb_fractal_report_t *report, yb_error_t *error)
@@ -203,20 +197,17 @@ bool yb_fractal_of_grid(const yb_grid_t *grid, yb_fractal_report_t *report, yb_e
     return good;
 }
 
+bool yb_fractal_of_relief(const yb_grid_t *grid, const yb_lines_t *lines,
+                          yb_fractal_report_t *report, yb_error_t *error)
+{
+    return lines != NULL ? yb_fractal_of_lines(lines, grid->cell_m, report, error)
+                         : yb_fractal_of_grid(grid, report, error);
+}
+
 void yb_fractal_free(yb_fractal_report_t *report)
 {
     free(report->level);
     *report = (yb_fractal_report_t){.dimension = YB_FRACTAL_LEAST};
-}
-
-double yb_fractal_boxes(const yb_lines_t *lines, double cell_m)
-{
-    yb_fractal_report_t report;
-    if (!measure(lines, cell_m, false, &report))
-        return YB_FRACTAL_LEAST;
-    const double dimension = report.dimension;
-    yb_fractal_free(&report);
-    return dimension;
 }
 
 double yb_fractal_from_loop(double loop)

@@ -73,13 +73,16 @@ bool yb_fractal_of_lines(const yb_lines_t *lines, double cell_m, yb_fractal_repo
 /* The same for the lines of a grid, at the heights that a tenth, two tenths ... of it lie below. */
 bool yb_fractal_of_grid(const yb_grid_t *grid, yb_fractal_report_t *report, yb_error_t *error);
 
+/* The same for what an encoder is given: `lines`, with the cells of the grid made from them, or, if
+ * that is NULL, the grid.
+ */
+bool yb_fractal_of_relief(const yb_grid_t *grid, const yb_lines_t *lines,
+                          yb_fractal_report_t *report, yb_error_t *error);
+
 void yb_fractal_free(yb_fractal_report_t *report);
 
 /* All of it. A new reference. */
 json_t *yb_fractal_json(const yb_fractal_report_t *report);
-
-/* The report's dimension alone. Without lines, or without memory: the least. */
-double yb_fractal_boxes(const yb_lines_t *lines, double cell_m);
 
 /* Dividers on one line. False: no memory. */
 bool yb_fractal_divider(const yb_line_t *line, double cell_m, yb_fractal_fit_t *fit);

@@ -44,11 +44,6 @@ static double *distinct_heights(const yb_lines_t *lines, int *count)
     return height_m;
 }
 
-double yb_line_grid_cell_m(const yb_lines_t *lines)
-{
-    return fmax(lines->width_m, lines->depth_m) / (GRID_SIDE - 1);
-}
-
 int yb_line_grid_levels(const yb_lines_t *lines, double *level_m, int most)
 {
     int count = 0;
@@ -234,7 +229,7 @@ static bool interpolate(yb_grid_t *grid)
 
 yb_grid_t *yb_line_grid_new(const yb_lines_t *lines, yb_error_t *error)
 {
-    double cell_m = yb_line_grid_cell_m(lines);
+    double cell_m = fmax(lines->width_m, lines->depth_m) / (GRID_SIDE - 1);
     int columns = 1 + (int)lround(lines->width_m / cell_m);
     int rows = 1 + (int)lround(lines->depth_m / cell_m);
     yb_grid_t *grid = yb_grid_new(columns < 2 ? 2 : columns, rows < 2 ? 2 : rows, cell_m);

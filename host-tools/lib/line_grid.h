@@ -12,9 +12,6 @@
  */
 yb_grid_t *yb_line_grid_new(const yb_lines_t *lines, yb_error_t *error);
 
-/* The size of its cells. */
-double yb_line_grid_cell_m(const yb_lines_t *lines);
-
 /* The distinct heights of the lines (not of spot heights), rising; if there are more than `most`,
  * evenly chosen ones. Answers how many.
  */

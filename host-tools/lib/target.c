@@ -306,7 +306,7 @@ static bool tell_failure(const loop_t *loop, yb_error_t *error)
 }
 
 /* The shortest of the kept codes whose K is what the search took it for. */
-static bool finish(loop_t *loop, yb_target_result_t *result, yb_error_t *error)
+static bool finish(loop_t *loop, yb_encode_result_t *result, yb_error_t *error)
 {
     for (int i = 0; i < loop->kept.count; i++) {
         yb_code_file_t *file = yb_contour_code_load(&loop->kept.set[i], error);
@@ -314,38 +314,16 @@ static bool finish(loop_t *loop, yb_target_result_t *result, yb_error_t *error)
             return false;
         result->k = exact_k(loop, file);
         if (result->k >= loop->k && file->size <= loop->task->most_bytes) {
-            if (file->sections.certified &&
-                !yb_certificate_fill(&file, loop->grid, loop->given, error)) {
-                yb_code_file_free(file);
-                return false;
-            }
-            result->encoded.code = file;
-            result->encoded.rmse_m = yb_judge_map_rmse_m(&file->map, loop->grid);
-            result->encoded.std_m = loop->grid->std_m;
-            result->encoded.dimension = loop->dimension;
-            result->encoded.trials = loop->done;
-            return true;
+            result->code = file;
+            result->rmse_m = yb_judge_map_rmse_m(&file->map, loop->grid);
+            result->std_m = loop->grid->std_m;
+            result->trials = loop->done;
+            return !file->sections.certified ||
+                   yb_certificate_fill(&result->code, loop->grid, loop->given, error);
         }
         yb_code_file_free(file);
     }
     return tell_failure(loop, error);
-}
-
-static bool measure_dimension(loop_t *loop, yb_error_t *error)
-{
-    if (loop->given != NULL) {
-        loop->dimension = yb_fractal_boxes(loop->given, loop->grid->cell_m);
-        return true;
-    }
-    double level_m[MEASURED_LEVELS];
-    for (int i = 0; i < MEASURED_LEVELS; i++)
-        level_m[i] = yb_sketch_quantile(loop->grid, (i + 1.0) / (MEASURED_LEVELS + 1));
-    yb_lines_t *lines = yb_lines_from_grid(loop->grid, level_m, MEASURED_LEVELS, error);
-    if (lines == NULL)
-        return false;
-    loop->dimension = yb_fractal_boxes(lines, loop->grid->cell_m);
-    yb_lines_free(lines);
-    return true;
 }
 
 static void free_loop(loop_t *loop)
@@ -362,7 +340,7 @@ static void free_loop(loop_t *loop)
 }
 
 static bool run(const yb_grid_t *grid, const yb_lines_t *given, const yb_encode_task_t *task,
-                double target_k, yb_target_result_t *result, yb_error_t *error)
+                double target_k, yb_encode_result_t *result, yb_error_t *error)
 {
     memset(result, 0, sizeof(*result));
     if (!yb_encode_has_room(task, error))
@@ -376,20 +354,24 @@ static bool run(const yb_grid_t *grid, const yb_lines_t *given, const yb_encode_
     loop->k = target_k;
     loop->judge = yb_judge_new(grid, JUDGE_SIDE);
     bool good = loop->judge != NULL || yb_error_set(error, "out of memory");
-    good = good && choose_levels(loop, error) && measure_dimension(loop, error) &&
-           run_search(loop, error) && finish(loop, result, error);
+    good = good && choose_levels(loop, error) &&
+           yb_fractal_of_relief(grid, given, &result->fractal, error);
+    loop->dimension = result->fractal.dimension;
+    good = good && run_search(loop, error) && finish(loop, result, error);
+    if (!good)
+        yb_encode_result_free(result);
     free_loop(loop);
     return good;
 }
 
 bool yb_target_grid(const yb_grid_t *grid, const yb_encode_task_t *task, double target_k,
-                    yb_target_result_t *result, yb_error_t *error)
+                    yb_encode_result_t *result, yb_error_t *error)
 {
     return run(grid, NULL, task, target_k, result, error);
 }
 
 bool yb_target_lines(const yb_lines_t *lines, const yb_encode_task_t *task, double target_k,
-                     yb_target_result_t *result, yb_error_t *error)
+                     yb_encode_result_t *result, yb_error_t *error)
 {
     yb_grid_t *grid = yb_line_grid_new(lines, error);
     if (grid == NULL)

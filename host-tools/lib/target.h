@@ -10,22 +10,17 @@
 
 #include "encode.h"
 
-typedef struct {
-    yb_encode_result_t encoded;
-    double k; /* as yb_fidelity_measure says it */
-} yb_target_result_t;
-
-/* As yb_encode_grid, but task->most_bytes is a limit, and task->seed where the search begins. False
- * with a sentence also if no code found within the limit reaches the target (above 0, at most 1).
- * Equal input gives equal bytes.
+/* As yb_encode_grid, but task->most_bytes is a limit, and task->seed where the search begins;
+ * result->k is the similarity that was reached. False with a sentence also if no code found within
+ * the limit reaches the target (above 0, at most 1). Equal input gives equal bytes.
  */
 bool yb_target_grid(const yb_grid_t *grid, const yb_encode_task_t *task, double target_k,
-                    yb_target_result_t *result, yb_error_t *error);
+                    yb_encode_result_t *result, yb_error_t *error);
 
 /* The same for contour lines, which are the originals; all coded lines have heights of theirs, so
  * that the task may not name other ones.
  */
 bool yb_target_lines(const yb_lines_t *lines, const yb_encode_task_t *task, double target_k,
-                     yb_target_result_t *result, yb_error_t *error);
+                     yb_encode_result_t *result, yb_error_t *error);
 
 #endif

@@ -55,7 +55,7 @@ static void test_near_the_relief(void **state)
         encode_grid(grid, &task, &result);
         assert_true(result.rmse_m / result.std_m < 0.12);
         assert_true(summit_error_m(result.code, grid) < 0.3 * grid->std_m);
-        yb_code_file_free(result.code);
+        yb_encode_result_free(&result);
         yb_grid_free(grid);
     }
 }
@@ -76,8 +76,8 @@ static void test_same_bytes_again(void **state)
         encode_grid(grid, &task, &second);
         assert_int_equal(first.code->size, second.code->size);
         assert_memory_equal(first.code->bytes, second.code->bytes, first.code->size);
-        yb_code_file_free(first.code);
-        yb_code_file_free(second.code);
+        yb_encode_result_free(&first);
+        yb_encode_result_free(&second);
     }
     yb_grid_free(grid);
 }
@@ -102,7 +102,7 @@ static void test_written_again(void **state)
         assert_int_equal(draft.seed, 77);
         assert_int_equal(yb_compact_write(&draft, code, sizeof(code), NULL), result.code->size);
         assert_memory_equal(code, result.code->bytes, result.code->size);
-        yb_code_file_free(result.code);
+        yb_encode_result_free(&result);
     }
     yb_grid_free(grid);
 }
@@ -120,7 +120,7 @@ static void test_budgets(void **state)
         encode_grid(grid, &task, &result);
         assert_true(result.rmse_m < before);
         before = result.rmse_m;
-        yb_code_file_free(result.code);
+        yb_encode_result_free(&result);
     }
     yb_error_t error;
     yb_encode_result_t result;
@@ -148,7 +148,7 @@ static void test_levels_are_kept(void **state)
             lines++;
         }
     assert_true(lines > 0);
-    yb_code_file_free(result.code);
+    yb_encode_result_free(&result);
     task.interval_m = 1e6;
     assert_false(yb_encode_grid(grid, &task, &result, &error));
     assert_non_null(strstr(error.text, "choose a smaller interval"));
@@ -185,7 +185,7 @@ static void test_lines(void **state)
             assert_true(fabs(height - 100 * round(height / 100)) < 1);
         }
     assert_true(result.rmse_m / result.std_m < 0.3);
-    yb_code_file_free(result.code);
+    yb_encode_result_free(&result);
     yb_lines_free(lines);
 }
 
@@ -200,7 +200,7 @@ static void test_vertices_are_kept(void **state)
         yb_encode_result_t result;
         encode_grid(grid, &task, &result);
         assert_true(result.code->map.vertex_count <= 40);
-        yb_code_file_free(result.code);
+        yb_encode_result_free(&result);
     }
     yb_grid_free(grid);
     assert_int_equal(yb_compact_vertex_class_within(32), 0);

@@ -249,7 +249,11 @@ static void test_loop_and_bytes(void **state)
     for (int coded = 0; coded < 256; coded++)
         assert_int_equal(yb_fractal_coded(yb_fractal_dimension((uint8_t)coded)), coded);
     yb_lines_t *none = yb_lines_new(1000, 1000);
-    assert_true(yb_fractal_boxes(none, 10) == YB_FRACTAL_LEAST);
+    yb_error_t error;
+    yb_fractal_report_t report;
+    assert_true(yb_fractal_of_lines(none, 10, &report, &error));
+    assert_true(report.dimension == YB_FRACTAL_LEAST);
+    yb_fractal_free(&report);
     yb_lines_free(none);
 }
 

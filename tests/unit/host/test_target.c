@@ -67,24 +67,24 @@ static void test_target_is_reached(void **state)
 {
     (void)state;
     yb_error_t error;
-    yb_target_result_t result[2];
+    yb_encode_result_t result[2];
     yb_grid_t *grid = scratch_grid(40, 30, relief_range);
     yb_encode_task_t task = {.most_bytes = 104, .profile = YB_COMPACT, .seed = 1, .effort = 1};
     for (int i = 0; i < 2; i++)
         if (!yb_target_grid(grid, &task, 0.75, &result[i], &error))
             fail_msg("%s", error.text);
-    const yb_code_file_t *code = result[0].encoded.code;
+    const yb_code_file_t *code = result[0].code;
     assert_true(code->size <= 104);
     assert_true(result[0].k >= 0.75);
     assert_true(fabs(result[0].k - measured_k(code, grid, NULL)) < 1e-12);
     assert_true(heights_of(code) >= 3);
     assert_true(has_summit(code, grid));
     assert_true(code->load.gain > 0);
-    assert_true(result[0].encoded.rmse_m / result[0].encoded.std_m < 0.35);
-    assert_int_equal(code->size, result[1].encoded.code->size);
-    assert_memory_equal(code->bytes, result[1].encoded.code->bytes, code->size);
+    assert_true(result[0].rmse_m / result[0].std_m < 0.35);
+    assert_int_equal(code->size, result[1].code->size);
+    assert_memory_equal(code->bytes, result[1].code->bytes, code->size);
     for (int i = 0; i < 2; i++)
-        yb_code_file_free(result[i].encoded.code);
+        yb_encode_result_free(&result[i]);
     yb_grid_free(grid);
 }
 
@@ -92,14 +92,14 @@ static void test_paper_profile(void **state)
 {
     (void)state;
     yb_error_t error;
-    yb_target_result_t result;
+    yb_encode_result_t result;
     yb_grid_t *grid = scratch_grid(32, 32, relief_cone);
     yb_encode_task_t task = {.most_bytes = 104, .profile = YB_PAPER, .seed = 1, .effort = 1};
     if (!yb_target_grid(grid, &task, 0.7, &result, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(result.encoded.code->bytes[0] & 0xf, YB_PAPER);
-    assert_true(measured_k(result.encoded.code, grid, NULL) >= 0.7);
-    yb_code_file_free(result.encoded.code);
+    assert_int_equal(result.code->bytes[0] & 0xf, YB_PAPER);
+    assert_true(measured_k(result.code, grid, NULL) >= 0.7);
+    yb_encode_result_free(&result);
     yb_grid_free(grid);
 }
 
@@ -108,7 +108,7 @@ static void test_task_is_kept(void **state)
 {
     (void)state;
     yb_error_t error;
-    yb_target_result_t result;
+    yb_encode_result_t result;
     yb_grid_t *grid = scratch_grid(32, 32, relief_range);
     const yb_sections_t sections = {
         .certified = true, .placed = true, .lon_deg = 9.5, .lat_deg = 46.5, .name = "Monte"};
@@ -120,7 +120,7 @@ static void test_task_is_kept(void **state)
                              .sections = &sections};
     if (!yb_target_grid(grid, &task, 0.5, &result, &error))
         fail_msg("%s", error.text);
-    const yb_code_file_t *code = result.encoded.code;
+    const yb_code_file_t *code = result.code;
     assert_true(code->size <= 80);
     assert_true(code->map.vertex_count <= 48);
     assert_string_equal(code->sections.name, "Monte");
@@ -129,7 +129,7 @@ static void test_task_is_kept(void **state)
     assert_true(result.k >= 0.5);
     assert_true(fabs(result.k - measured_k(code, grid, NULL)) < 1e-12);
     assert_int_equal(code->map.certified_k, (int)floor(result.k * 255));
-    yb_code_file_free(result.encoded.code);
+    yb_encode_result_free(&result);
     task.most_bytes = YB_ENCODE_LEAST_BYTES + 15;
     assert_false(yb_target_grid(grid, &task, 0.5, &result, &error));
     assert_non_null(strstr(error.text, "the least is 39"));
@@ -140,7 +140,7 @@ static void test_out_of_reach(void **state)
 {
     (void)state;
     yb_error_t error;
-    yb_target_result_t result;
+    yb_encode_result_t result;
     yb_grid_t *grid = scratch_grid(32, 32, relief_range);
     yb_encode_task_t task = {.most_bytes = 40, .profile = YB_COMPACT, .seed = 1, .effort = 1};
     assert_false(yb_target_grid(grid, &task, 0.99, &result, &error));
@@ -175,7 +175,7 @@ static void test_lines(void **state)
 {
     (void)state;
     yb_error_t error;
-    yb_target_result_t result;
+    yb_encode_result_t result;
     yb_lines_t *lines = make_rings();
     yb_encode_task_t task = {.most_bytes = 104, .profile = YB_COMPACT, .seed = 1, .effort = 2};
     if (!yb_target_lines(lines, &task, 0.75, &result, &error))
@@ -183,9 +183,9 @@ static void test_lines(void **state)
     yb_grid_t *grid = yb_line_grid_new(lines, &error);
     assert_non_null(grid);
     assert_true(result.k >= 0.75);
-    assert_true(fabs(result.k - measured_k(result.encoded.code, grid, lines)) < 1e-12);
+    assert_true(fabs(result.k - measured_k(result.code, grid, lines)) < 1e-12);
     yb_grid_free(grid);
-    yb_code_file_free(result.encoded.code);
+    yb_encode_result_free(&result);
     task.levels = 3;
     assert_false(yb_target_lines(lines, &task, 0.75, &result, &error));
     assert_non_null(strstr(error.text, "leave out --levels"));
@@ -231,7 +231,7 @@ static void test_fast_figures(void **state)
     yb_level_cut_free(cut);
     yb_mesh_free(&mesh);
     yb_line_judge_free(judge);
-    yb_code_file_free(made.code);
+    yb_encode_result_free(&made);
     yb_grid_free(grid);
 }
 
