@@ -55,6 +55,39 @@ bool yb_lines_add(yb_lines_t *lines, double height_m, bool closed, const yb_plac
     return true;
 }
 
+double yb_lines_frame_way_m(const yb_lines_t *lines, yb_place_t at)
+{
+    double width = lines->width_m;
+    double depth = lines->depth_m;
+    if (at.y_m <= 0)
+        return at.x_m;
+    if (at.x_m >= width)
+        return width + at.y_m;
+    if (at.y_m >= depth)
+        return 2 * width + depth - at.x_m;
+    return 2 * (width + depth) - at.y_m;
+}
+
+int yb_lines_corners_back(const yb_lines_t *lines, const yb_line_t *line,
+                          yb_place_t corner[YB_FRAME_CORNERS])
+{
+    double width = lines->width_m;
+    double depth = lines->depth_m;
+    const yb_place_t all[YB_FRAME_CORNERS] = {{0, 0}, {width, 0}, {width, depth}, {0, depth}};
+    const double way[YB_FRAME_CORNERS] = {0, width, width + depth, 2 * width + depth};
+    double round = 2 * (width + depth);
+    double from = yb_lines_frame_way_m(lines, line->place[line->count - 1]);
+    double to = yb_lines_frame_way_m(lines, line->place[0]);
+    int count = 0;
+    to += to < from ? round : 0;
+    for (int i = 0; i < 2 * YB_FRAME_CORNERS; i++) {
+        double at = way[i % YB_FRAME_CORNERS] + (i < YB_FRAME_CORNERS ? 0 : round);
+        if (at > from && at < to && count < YB_FRAME_CORNERS)
+            corner[count++] = all[i % YB_FRAME_CORNERS];
+    }
+    return count;
+}
+
 double yb_line_length_m(const yb_line_t *line)
 {
     double length = 0;

@@ -12,6 +12,10 @@
 #include "error.h"
 #include "grid.h"
 
+enum {
+    YB_FRAME_CORNERS = 4
+};
+
 typedef struct {
     double x_m, y_m;
 } yb_place_t;
@@ -65,6 +69,15 @@ void yb_lines_free(yb_lines_t *lines);
 yb_lines_t *yb_lines_new(double width_m, double depth_m);
 bool yb_lines_add(yb_lines_t *lines, double height_m, bool closed, const yb_place_t *place,
                   int count);
+
+/* How far along the frame, counter-clockwise from its south-western corner, a place on it lies. */
+double yb_lines_frame_way_m(const yb_lines_t *lines, yb_place_t at);
+
+/* The corners of the frame that an open line's left side has, counter-clockwise from its end back
+ * to its beginning. Answers how many.
+ */
+int yb_lines_corners_back(const yb_lines_t *lines, const yb_line_t *line,
+                          yb_place_t corner[YB_FRAME_CORNERS]);
 
 double yb_line_length_m(const yb_line_t *line);
 

@@ -11,8 +11,7 @@
 
 enum {
     MOST_TOLD = 3,
-    ARC_SEGMENTS = 2, /* of a quarter circle round a buffer's corners */
-    SIDES = 4
+    ARC_SEGMENTS = 2 /* of a quarter circle round a buffer's corners */
 };
 
 /* Overlaps up to this share of the frame's longer side are touches; so are those of two lines that
@@ -43,40 +42,6 @@ typedef struct {
 
 /* --- The two sides of a line ------------------------------------------------------------------ */
 
-/* How far along the frame a place on it lies, counter-clockwise from the south-west. */
-static double way_of(const yb_lines_t *lines, yb_place_t at)
-{
-    double width = lines->width_m;
-    double depth = lines->depth_m;
-    if (at.y_m <= 0)
-        return at.x_m;
-    if (at.x_m >= width)
-        return width + at.y_m;
-    if (at.y_m >= depth)
-        return 2 * width + depth - at.x_m;
-    return 2 * (width + depth) - at.y_m;
-}
-
-/* The frame's corners between an open line's end and its beginning. */
-static int corners_back(const yb_lines_t *lines, const yb_line_t *line, yb_place_t corner[SIDES])
-{
-    double width = lines->width_m;
-    double depth = lines->depth_m;
-    const yb_place_t all[SIDES] = {{0, 0}, {width, 0}, {width, depth}, {0, depth}};
-    const double way[SIDES] = {0, width, width + depth, 2 * width + depth};
-    double round = 2 * (width + depth);
-    double from = way_of(lines, line->place[line->count - 1]);
-    double to = way_of(lines, line->place[0]);
-    int count = 0;
-    to += to < from ? round : 0;
-    for (int i = 0; i < 2 * SIDES; i++) {
-        double at = way[i % SIDES] + (i < SIDES ? 0 : round);
-        if (at > from && at < to && count < SIDES)
-            corner[count++] = all[i % SIDES];
-    }
-    return count;
-}
-
 /* The places as coordinates, then `more` others, then, if it is `closed`, the first one again. */
 static GEOSCoordSequence *sequence_of(GEOSContextHandle_t geos, const yb_line_t *line,
                                       const yb_place_t *other, int more, bool closed)
@@ -96,8 +61,8 @@ static GEOSCoordSequence *sequence_of(GEOSContextHandle_t geos, const yb_line_t 
 /* What lies inside a closed line, or to the left of an open one. */
 static GEOSGeometry *side_of(const finder_t *finder, const yb_line_t *line)
 {
-    yb_place_t corner[SIDES];
-    int corners = line->closed ? 0 : corners_back(finder->lines, line, corner);
+    yb_place_t corner[YB_FRAME_CORNERS];
+    int corners = line->closed ? 0 : yb_lines_corners_back(finder->lines, line, corner);
     if (line->count + corners < 3)
         return GEOSGeom_createEmptyPolygon_r(finder->geos);
     GEOSCoordSequence *sequence = sequence_of(finder->geos, line, corner, corners, true);

@@ -5,18 +5,14 @@
 
 static const double highest_m = 30000;
 
-enum {
-    CORNERS = 4
-};
-
 /* What a line parts from the rest. Places along the frame are counted from its south-western
  * corner, counterclockwise.
  */
 typedef struct {
     const yb_line_t *line;
     double low_x, low_y, high_x, high_y;
-    double begin, end;          /* of an open line, along the frame */
-    yb_place_t corner[CORNERS]; /* of the frame, from its end back to its begin */
+    double begin, end;                   /* of an open line, along the frame */
+    yb_place_t corner[YB_FRAME_CORNERS]; /* of the frame, from its end back to its begin */
     int corners;
     bool holds_land; /* the land outside all lines lies in its inside */
 } fence_t;
@@ -33,19 +29,6 @@ typedef struct {
     int fences;
     double round; /* the frame's length */
 } nesting_t;
-
-static double along_frame(const yb_lines_t *lines, yb_place_t at)
-{
-    double width = lines->width_m;
-    double depth = lines->depth_m;
-    if (at.y_m <= 0)
-        return at.x_m;
-    if (at.x_m >= width)
-        return width + at.y_m;
-    if (at.y_m >= depth)
-        return 2 * width + depth - at.x_m;
-    return 2 * (width + depth) - at.y_m;
-}
 
 /* Whether a place of the frame is met on the way from one place counterclockwise to another. */
 static bool on_way(double from, double to, double at)
@@ -71,19 +54,10 @@ static fence_t fence_of(const nesting_t *nesting, const yb_line_t *line)
 {
     const yb_lines_t *lines = nesting->lines;
     fence_t fence = {.line = line};
-    const yb_place_t corner[CORNERS] = {
-        {0, 0}, {lines->width_m, 0}, {lines->width_m, lines->depth_m}, {0, lines->depth_m}};
     if (!line->closed) {
-        fence.begin = along_frame(lines, line->place[0]);
-        fence.end = along_frame(lines, line->place[line->count - 1]);
-        int first = 0;
-        while (first < CORNERS && along_frame(lines, corner[first]) <= fence.end)
-            first++;
-        for (int i = 0; i < CORNERS; i++) {
-            yb_place_t at = corner[(first + i) % CORNERS];
-            if (on_way(fence.end, fence.begin, along_frame(lines, at)))
-                fence.corner[fence.corners++] = at;
-        }
+        fence.begin = yb_lines_frame_way_m(lines, line->place[0]);
+        fence.end = yb_lines_frame_way_m(lines, line->place[line->count - 1]);
+        fence.corners = yb_lines_corners_back(lines, line, fence.corner);
     }
     fence_bound(&fence);
     return fence;
