@@ -120,54 +120,6 @@ static void put_difference(coder_t *coder, int model, int down, int value)
         put_bit(coder, down, value < 0);
 }
 
-/* Metres as a mantissa from `least` to `most` and an exponent, in 1/64 m. */
-static uint16_t nearest_unit(double metres, int least, int most, int most_exponent)
-{
-    double scaled = metres * 64;
-    int exponent = 0;
-    while (exponent < most_exponent && scaled >= most + 0.5) {
-        scaled /= 2;
-        exponent++;
-    }
-    long mantissa = lround(fmin(fmax(scaled, least), most));
-    return (uint16_t)((unsigned)exponent << 12 | (unsigned)mantissa);
-}
-
-uint16_t yb_compact_cell(double metres)
-{
-    return nearest_unit(metres, 1, 511, 14);
-}
-
-uint16_t yb_compact_unit(double metres)
-{
-    return nearest_unit(metres, 16, 31, 15);
-}
-
-static int gain_value(int coded)
-{
-    return coded == 0 ? 0 : (coded % 2 != 0 ? 181 : 128) >> (7 - coded / 2);
-}
-
-static int coded_gain(double gain)
-{
-    int best = 0;
-    for (int i = 1; i < 16; i++)
-        if (fabs(gain_value(i) - gain) < fabs(gain_value(best) - gain))
-            best = i;
-    return best;
-}
-
-uint8_t yb_compact_gain(double gain)
-{
-    return (uint8_t)gain_value(coded_gain(gain));
-}
-
-uint8_t yb_compact_dimension(uint8_t dimension)
-{
-    int eighth = (dimension + 4) / 8;
-    return (uint8_t)(8 * (eighth > 31 ? 31 : eighth));
-}
-
 static int columns_of(const yb_contour_set_t *set)
 {
     return set->east / set->spacing;
@@ -190,25 +142,6 @@ static void put_shape(coder_t *coder, const yb_contour_set_t *set)
         return;
     put_uniform(coder, columns < rows, 2);
     put_uniform(coder, fix_min(columns, rows) - 1, most);
-}
-
-int yb_compact_vertex_class(int vertices)
-{
-    if (vertices <= 255)
-        return (fix_max(vertices, 1) - 1) / 32;
-    int class = 8;
-    while (class < 15 && 512 << (class - 8) < vertices)
-        class ++;
-    return class;
-}
-
-int yb_compact_vertex_class_within(int most)
-{
-    int class = yb_compact_vertex_class(most);
-    int held = class < 8 ? 32 * (class + 1) : 2 << class;
-    if (class == 7 || class == 15)
-        held--;
-    return class > 0 && held > most ? class - 1 : class;
 }
 
 /* The base is the height of the first line, or of the frame. */
@@ -239,7 +172,7 @@ static void put_header(coder_t *coder, const yb_contour_set_t *set)
     if (base != 0)
         put_uniform(coder, base < 0, 2);
     put_uniform(coder, set->dimension / 8, 32);
-    put_uniform(coder, coded_gain(set->gain), 16);
+    put_uniform(coder, yb_compact_gain_code(set->gain), 16);
     put_bit(coder, MODEL_STRAIGHT, set->straight);
     put_uniform(coder,
                 set->vertices > 0

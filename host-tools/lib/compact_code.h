@@ -17,16 +17,4 @@ size_t yb_compact_write(const yb_contour_set_t *set, uint8_t *code, size_t room,
 /* The set that a code was written from: writing it again gives the code's bytes. */
 void yb_compact_read(const yb_code_file_t *file, yb_contour_set_t *set);
 
-/* The nearest of the profile's cells, units, gains and dimensions. */
-uint16_t yb_compact_cell(double metres);
-uint16_t yb_compact_unit(double metres);
-uint8_t yb_compact_gain(double gain);
-uint8_t yb_compact_dimension(uint8_t dimension);
-
-/* The class of a mesh with so many vertices; and the largest class whose meshes have no more than
- * `most`, at least 32.
- */
-int yb_compact_vertex_class(int vertices);
-int yb_compact_vertex_class_within(int most);
-
 #endif

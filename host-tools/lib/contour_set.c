@@ -3,28 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    MOST_MANTISSA = 0xfff,
-    MOST_EXPONENT = 15
-};
-
-uint16_t yb_unit_coded(double metres)
-{
-    double scaled = metres * 64;
-    int exponent = 0;
-    while (exponent < MOST_EXPONENT && scaled >= MOST_MANTISSA + 0.5) {
-        scaled /= 2;
-        exponent++;
-    }
-    long mantissa = lround(fmin(fmax(scaled, 1), MOST_MANTISSA));
-    return (uint16_t)(((unsigned)exponent << 12) | (unsigned)mantissa);
-}
-
-double yb_unit_m(uint16_t coded)
-{
-    return yb_unit_64th_m(coded) / 64.0;
-}
-
 static double base_m(const yb_contour_set_t *set)
 {
     return set->profile == YB_COMPACT ? set->base * yb_unit_m(set->unit) : set->base_m;

@@ -12,6 +12,7 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "coded_values.h"
 #include "sections.h"
 
 enum {
@@ -56,12 +57,6 @@ typedef struct {
     yb_coded_contour_t contour[YB_SET_CONTOURS];
     yb_step_t point[YB_SET_POINTS];
 } yb_contour_set_t;
-
-/* Metres as a header codes them, rounded to the nearest of about 4000 steps an octave, and back.
- * Beyond the range (1/64 m to 2 million m) the nearest end.
- */
-uint16_t yb_unit_coded(double metres);
-double yb_unit_m(uint16_t coded);
 
 /* The height in units nearest to height_m, within what a set can say. */
 uint16_t yb_contour_set_height(const yb_contour_set_t *set, double height_m);

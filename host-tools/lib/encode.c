@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include "certificate.h"
-#include "compact_code.h"
 #include "contour_code.h"
 #include "judge.h"
+#include "levels.h"
 #include "line_grid.h"
 #include "search.h"
 #include "sketch.h"
@@ -46,8 +46,7 @@ typedef struct {
     const yb_encode_task_t *task;
     const yb_lines_t *given; /* the input's own lines, or NULL */
     yb_judge_t *judge;
-    double level_m[YB_ENCODE_MOST_LEVELS]; /* where lines must lie; none: anywhere */
-    int levels;
+    yb_levels_t levels;
     draft_t draft[DRAFTS];
     int drafts;
     int side;     /* of the judges' samples */
@@ -64,58 +63,6 @@ typedef struct {
     bool failed;
 } crew_t;
 
-static bool choose_levels(encoder_t *encoder, yb_error_t *error)
-{
-    const yb_encode_task_t *task = encoder->task;
-    double low = (double)encoder->grid->low_m;
-    double range = (double)(encoder->grid->high_m - encoder->grid->low_m);
-    if (task->levels > 0) {
-        encoder->levels = task->levels;
-        for (int i = 0; i < task->levels; i++)
-            encoder->level_m[i] = low + range * (i + 1) / (task->levels + 1);
-    } else if (task->interval_m > 0) {
-        double first = floor(low / task->interval_m) + 1;
-        double last = ceil((double)encoder->grid->high_m / task->interval_m) - 1;
-        if (last < first)
-            return yb_error_set(error,
-                                "no multiple of %g m lies between the lowest height, %.6g m, and "
-                                "the highest, %.6g m: choose a smaller interval",
-                                task->interval_m, low, low + range);
-        if (last - first >= YB_ENCODE_MOST_LEVELS)
-            return yb_error_set(error,
-                                "an interval of %g m makes more than %d levels between %.6g m and "
-                                "%.6g m: choose a larger one",
-                                task->interval_m, YB_ENCODE_MOST_LEVELS, low, low + range);
-        while (first + encoder->levels <= last) {
-            encoder->level_m[encoder->levels] = (first + encoder->levels) * task->interval_m;
-            encoder->levels++;
-        }
-    } else if (encoder->given != NULL) {
-        encoder->levels =
-            yb_line_grid_levels(encoder->given, encoder->level_m, YB_ENCODE_MOST_LEVELS);
-    }
-    return true;
-}
-
-long yb_encode_trials(long usual, int effort)
-{
-    for (int i = effort; i < YB_ENCODE_DEFAULT_EFFORT; i++)
-        usual /= 3;
-    for (int i = effort; i > YB_ENCODE_DEFAULT_EFFORT; i--)
-        usual *= 3;
-    return usual;
-}
-
-bool yb_encode_has_room(const yb_encode_task_t *task, yb_error_t *error)
-{
-    size_t sections = yb_sections_size(task->sections);
-    return task->most_bytes >= YB_ENCODE_LEAST_BYTES + sections ||
-           yb_error_set(error, "%zu bytes are too few for a map%s: the least is %zu",
-                        task->most_bytes,
-                        sections > 0 ? " with the name, place or certificate asked for" : "",
-                        YB_ENCODE_LEAST_BYTES + sections);
-}
-
 void yb_encode_result_free(yb_encode_result_t *result)
 {
     yb_code_file_free(result->code);
@@ -126,8 +73,8 @@ void yb_encode_result_free(yb_encode_result_t *result)
 /* Whether all levels are multiples of a height. */
 static bool divides(const encoder_t *encoder, double height_m)
 {
-    for (int i = 0; i < encoder->levels; i++) {
-        double multiple = encoder->level_m[i] / height_m;
+    for (int i = 0; i < encoder->levels.count; i++) {
+        double multiple = encoder->levels.height_m[i] / height_m;
         if (fabs(multiple - round(multiple)) > 0.001 * fabs(multiple) + 1e-9)
             return false;
     }
@@ -140,45 +87,34 @@ static bool divides(const encoder_t *encoder, double height_m)
 static void choose_unit(const encoder_t *encoder, yb_contour_set_t *set)
 {
     const yb_grid_t *grid = encoder->grid;
-    double step_m = encoder->levels > 0 ? encoder->level_m[0] : 0;
-    for (int i = 1; i < encoder->levels; i++)
-        step_m = fmin(step_m, encoder->level_m[i] - encoder->level_m[i - 1]);
-    set->unit = yb_compact_unit(encoder->levels > 0 ? (double)(grid->high_m - grid->low_m) / 256
-                                                    : grid->std_m / 5);
+    double step_m = encoder->levels.count > 0 ? encoder->levels.height_m[0] : 0;
+    for (int i = 1; i < encoder->levels.count; i++)
+        step_m = fmin(step_m, encoder->levels.height_m[i] - encoder->levels.height_m[i - 1]);
+    uint16_t unit = yb_compact_unit(
+        encoder->levels.count > 0 ? (double)(grid->high_m - grid->low_m) / 256 : grid->std_m / 5);
+    int interval = 0;
     /* Powers of two first: lines then skip units that spot heights have. */
     static const int parts[] = {4, 2, 1, 8, 5, 3, 10, 6, 7, 20, 25, 9};
     for (size_t i = 0; i < sizeof(parts) / sizeof(parts[0]) && step_m > 0; i++) {
-        uint16_t unit = yb_compact_unit(step_m / parts[i]);
-        if (fabs(yb_unit_m(unit) * parts[i] / step_m - 1) > 1e-9 || !divides(encoder, step_m))
+        uint16_t part = yb_compact_unit(step_m / parts[i]);
+        if (fabs(yb_unit_m(part) * parts[i] / step_m - 1) > 1e-9 || !divides(encoder, step_m))
             continue;
-        set->unit = unit;
-        set->interval =
-            (uint8_t)(parts[i] <= 8 && (parts[i] & (parts[i] - 1)) == 0 ? (int)log2(parts[i]) : 0);
+        unit = part;
+        interval = parts[i] <= 8 && (parts[i] & (parts[i] - 1)) == 0 ? (int)log2(parts[i]) : 0;
         break;
     }
-    /* Well below the lowest height, and a multiple of all intervals. */
+    /* Well below the lowest height. */
     double range_m = (double)(grid->high_m - grid->low_m);
-    double base_m = (double)grid->low_m - range_m;
-    set->base = (int)floor(base_m / yb_unit_m(set->unit) / 8) * 8;
+    yb_sketch_units(set, unit, interval, (double)grid->low_m - range_m);
 }
 
 static void begin_set(const encoder_t *encoder, yb_contour_set_t *set, int spacing)
 {
-    const yb_grid_t *grid = encoder->grid;
-    const yb_encode_task_t *task = encoder->task;
-    double width = yb_grid_width_m(grid);
-    double depth = yb_grid_depth_m(grid);
-    yb_sketch_begin(set, width, depth, (double)grid->low_m, (double)grid->high_m, spacing);
-    set->seed = task->seed;
-    set->profile = task->profile;
-    set->sections = task->sections;
-    set->most_vertices = task->vertices;
-    if (set->profile == YB_COMPACT) {
-        set->cell = yb_compact_cell(fmax(width / set->east, depth / set->north));
+    yb_sketch_task(set, encoder->grid, encoder->task, spacing);
+    if (set->profile == YB_COMPACT)
         choose_unit(encoder, set);
-    }
-    yb_sketch_corners(set, grid);
-    set->corners = task->most_bytes >= FEW_BYTES ? 0xf : 0;
+    yb_sketch_corners(set, encoder->grid);
+    set->corners = encoder->task->most_bytes >= FEW_BYTES ? 0xf : 0;
 }
 
 /* Keeps a draft if it is the best of its spacing. */
@@ -264,9 +200,10 @@ static void sort_drafts(encoder_t *encoder)
 static bool make_drafts(encoder_t *encoder, yb_error_t *error)
 {
     choose_spacings(encoder);
-    if (encoder->levels > 0 && !draft_levels(encoder, encoder->level_m, encoder->levels, error))
+    if (encoder->levels.count > 0 &&
+        !draft_levels(encoder, encoder->levels.height_m, encoder->levels.count, error))
         return false;
-    for (int levels = 1; levels <= FREE_LEVELS && encoder->levels == 0; levels++) {
+    for (int levels = 1; levels <= FREE_LEVELS && encoder->levels.count == 0; levels++) {
         double level_m[FREE_LEVELS];
         for (int i = 0; i < levels; i++)
             level_m[i] = yb_sketch_quantile(encoder->grid, (i + 0.5) / levels);
@@ -284,13 +221,13 @@ static void search_draft(const encoder_t *encoder, yb_judge_t *judge, draft_t *d
                          yb_search_t search)
 {
     uint16_t level[YB_ENCODE_MOST_LEVELS];
-    for (int i = 0; i < encoder->levels; i++)
-        level[i] = yb_contour_set_line_height(&draft->set, encoder->level_m[i]);
+    for (int i = 0; i < encoder->levels.count; i++)
+        level[i] = yb_contour_set_line_height(&draft->set, encoder->levels.height_m[i]);
     search.grid = encoder->grid;
     search.judge = judge;
     search.most_bytes = encoder->task->most_bytes;
     search.level = level;
-    search.levels = encoder->levels;
+    search.levels = encoder->levels.count;
     draft->score_m = yb_search_run(&search, &draft->set);
 }
 
@@ -363,15 +300,14 @@ static bool search_best(encoder_t *encoder)
 
 static bool encoder_run(encoder_t *encoder, yb_encode_result_t *result, yb_error_t *error)
 {
-    if (!choose_levels(encoder, error) || !make_drafts(encoder, error) ||
+    if (!yb_levels_choose(&encoder->levels, encoder->task, encoder->grid, encoder->given, error) ||
+        !make_drafts(encoder, error) ||
         !yb_fractal_of_relief(encoder->grid, encoder->given, &result->fractal, error))
         return false;
     if (!search_best(encoder))
         return yb_error_set(error, "out of memory");
     draft_t *best = &encoder->draft[0];
-    best->set.dimension = yb_fractal_coded(result->fractal.dimension);
-    if (best->set.profile == YB_COMPACT)
-        best->set.dimension = yb_compact_dimension(best->set.dimension);
+    yb_fractal_dimension_of(&best->set, result->fractal.dimension);
     /* Lines say nothing of what lies between them: the noise stays as strong as they suggest. */
     if (encoder->given == NULL)
         yb_fractal_gain(&best->set, encoder->grid);

@@ -220,6 +220,12 @@ uint8_t yb_fractal_coded(double dimension)
     return (uint8_t)lround(fmin(fmax(dimension - 1, 0) * 256, 255));
 }
 
+void yb_fractal_dimension_of(yb_contour_set_t *set, double dimension)
+{
+    uint8_t coded = yb_fractal_coded(dimension);
+    set->dimension = set->profile == YB_COMPACT ? yb_compact_dimension(coded) : coded;
+}
+
 static json_t *fit_json(const yb_fractal_fit_t *fit)
 {
     if (fit->sizes == 0)

@@ -103,6 +103,9 @@ static inline double yb_fractal_hurst(double dimension)
     return 2 - dimension;
 }
 
+/* Gives a set the nearest dimension that its profile has. */
+void yb_fractal_dimension_of(yb_contour_set_t *set, double dimension);
+
 /* Sets set->gain so that the map is as rough as the grid: that the rises over 1, 2, 4 and 8 cells
  * are as few octaves off as can be (roughness.h). False, with the gain as it was, if the code is
  * impossible or memory short. Cost: some fifteen reference surfaces.

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compact_code.h"
 #include "contour_code.h"
 #include "paper_code.h"
 

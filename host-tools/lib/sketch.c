@@ -39,6 +39,28 @@ void yb_sketch_begin(yb_contour_set_t *set, double width_m, double depth_m, doub
     set->frame = yb_contour_set_height(set, low_m);
 }
 
+void yb_sketch_task(yb_contour_set_t *set, const yb_grid_t *grid, const yb_encode_task_t *task,
+                    int spacing)
+{
+    double width_m = yb_grid_width_m(grid);
+    double depth_m = yb_grid_depth_m(grid);
+    yb_sketch_begin(set, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
+    set->profile = task->profile;
+    set->seed = task->seed & 127;
+    set->sections = task->sections;
+    set->most_vertices = task->vertices;
+    if (set->profile == YB_COMPACT)
+        set->cell = yb_compact_cell(fmax(width_m / set->east, depth_m / set->north));
+}
+
+void yb_sketch_units(yb_contour_set_t *set, uint16_t unit, int interval, double lowest_m)
+{
+    int multiple = 1 << interval;
+    set->unit = unit;
+    set->interval = (uint8_t)interval;
+    set->base = (int)floor(lowest_m / yb_unit_m(unit) / multiple) * multiple;
+}
+
 void yb_sketch_corners(yb_contour_set_t *set, const yb_grid_t *grid)
 {
     double width_m = yb_grid_width_m(grid);

@@ -6,6 +6,7 @@
 
 #include "contour_lines.h"
 #include "contour_set.h"
+#include "encode_task.h"
 #include "simplify.h"
 
 /* Header of a code for a frame of these metres: at most 255 steps on the longer side (a multiple
@@ -14,6 +15,17 @@
  */
 void yb_sketch_begin(yb_contour_set_t *set, double width_m, double depth_m, double low_m,
                      double high_m, int spacing);
+
+/* The same for a task: the grid's frame and heights; the task's profile, seed, sections and bound
+ * on the mesh. A compact set still wants yb_sketch_units.
+ */
+void yb_sketch_task(yb_contour_set_t *set, const yb_grid_t *grid, const yb_encode_task_t *task,
+                    int spacing);
+
+/* Lets the heights of a compact set that has none yet count from lowest_m, or a little below, in
+ * units as coded; those of lines in multiples of 2^interval units.
+ */
+void yb_sketch_units(yb_contour_set_t *set, uint16_t unit, int interval, double lowest_m);
 
 /* Gives the corners the grid's heights, and the frame their mean. */
 void yb_sketch_corners(yb_contour_set_t *set, const yb_grid_t *grid);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "certificate.h"
-#include "compact_code.h"
 #include "comparison.h"
 #include "contour_code.h"
 #include "fidelity.h"
@@ -66,44 +65,13 @@ typedef struct {
     double k;
     double dimension;
     yb_judge_t *judge;
-    double level_m[YB_ENCODE_MOST_LEVELS];
-    int levels;
+    yb_levels_t levels;
     draft_t draft[MOST_DRAFTS];
     int drafts;
     long trials, done;
     long part; /* of the trials that run now */
     yb_target_kept_t kept;
 } loop_t;
-
-static bool choose_levels(loop_t *loop, yb_error_t *error)
-{
-    const yb_encode_task_t *task = loop->task;
-    double low_m = (double)loop->grid->low_m;
-    double high_m = (double)loop->grid->high_m;
-    if (loop->given != NULL) {
-        if (task->levels > 0 || task->interval_m > 0)
-            return yb_error_set(error, "the similarity of lines is measured at their own heights: "
-                                       "leave out --levels and --interval");
-        loop->levels = yb_line_grid_levels(loop->given, loop->level_m, YB_ENCODE_MOST_LEVELS);
-        return true;
-    }
-    loop->levels = task->levels;
-    for (int i = 0; i < task->levels; i++)
-        loop->level_m[i] = low_m + (high_m - low_m) * (i + 1) / (task->levels + 1);
-    if (task->levels > 0 || task->interval_m <= 0)
-        return true;
-    double first = floor(low_m / task->interval_m) + 1;
-    double last = ceil(high_m / task->interval_m) - 1;
-    if (last < first || last - first >= YB_ENCODE_MOST_LEVELS)
-        return yb_error_set(error,
-                            "an interval of %g m makes no level or more than %d of them between "
-                            "%.6g m and %.6g m: choose another one",
-                            task->interval_m, YB_ENCODE_MOST_LEVELS, low_m, high_m);
-    loop->levels = (int)(last - first) + 1;
-    for (int i = 0; i < loop->levels; i++)
-        loop->level_m[i] = (first + i) * task->interval_m;
-    return true;
-}
 
 static yb_target_search_t search_of(loop_t *loop, draft_t *draft, uint64_t seed)
 {
@@ -113,8 +81,8 @@ static yb_target_search_t search_of(loop_t *loop, draft_t *draft, uint64_t seed)
                                 .lines = draft->lines,
                                 .k = loop->k,
                                 .most_bytes = loop->task->most_bytes,
-                                .level_m = loop->level_m,
-                                .levels = loop->levels,
+                                .level_m = loop->levels.height_m,
+                                .levels = loop->levels.count,
                                 .least_gain = (uint8_t)gain,
                                 .most_gain = (uint8_t)gain,
                                 .most_off = YB_TARGET_MOST_OFF,
@@ -130,8 +98,7 @@ static bool make_draft(loop_t *loop, int wanted_spacing, int lines)
     const yb_target_draft_t begin = {.grid = loop->grid,
                                      .task = loop->task,
                                      .dimension = loop->dimension,
-                                     .level_m = loop->level_m,
-                                     .levels = loop->levels};
+                                     .levels = &loop->levels};
     bool good =
         yb_target_draft_begin(&begin, &draft->set, yb_target_draft_spacing(&begin, wanted_spacing));
     for (int i = 0; i < loop->drafts && draft->lines == NULL; i++)
@@ -345,6 +312,9 @@ static bool run(const yb_grid_t *grid, const yb_lines_t *given, const yb_encode_
     memset(result, 0, sizeof(*result));
     if (!yb_encode_has_room(task, error))
         return false;
+    if (given != NULL && (task->levels > 0 || task->interval_m > 0))
+        return yb_error_set(error, "the similarity of lines is measured at their own heights: "
+                                   "leave out --levels and --interval");
     loop_t *loop = calloc(1, sizeof(*loop));
     if (loop == NULL)
         return yb_error_set(error, "out of memory");
@@ -354,7 +324,7 @@ static bool run(const yb_grid_t *grid, const yb_lines_t *given, const yb_encode_
     loop->k = target_k;
     loop->judge = yb_judge_new(grid, JUDGE_SIDE);
     bool good = loop->judge != NULL || yb_error_set(error, "out of memory");
-    good = good && choose_levels(loop, error) &&
+    good = good && yb_levels_choose(&loop->levels, task, grid, given, error) &&
            yb_fractal_of_relief(grid, given, &result->fractal, error);
     loop->dimension = result->fractal.dimension;
     good = good && run_search(loop, error) && finish(loop, result, error);

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "compact_code.h"
 #include "contour_code.h"
 #include "fractal.h"
 #include "sketch.h"
@@ -10,6 +9,7 @@
 
 enum {
     START_GAIN = 16,
+    UNITS_BELOW = 20, /* the lowest height, for the corners */
     MOST_SPACING = 16,
     MOST_STEPS = 255
 };
@@ -56,8 +56,8 @@ int yb_target_draft_spacing(const yb_target_draft_t *draft, int wanted)
 static uint16_t choose_unit(const yb_target_draft_t *draft)
 {
     double most_m = draft->grid->std_m / 8;
-    for (int i = 1; i < draft->levels; i++)
-        most_m = fmin(most_m, (draft->level_m[i] - draft->level_m[i - 1]) / 2);
+    for (int i = 1; i < draft->levels->count; i++)
+        most_m = fmin(most_m, (draft->levels->height_m[i] - draft->levels->height_m[i - 1]) / 2);
     uint16_t best = yb_compact_unit(most_m);
     double least = HUGE_VAL;
     double high_m = (double)draft->grid->high_m;
@@ -76,26 +76,16 @@ static uint16_t choose_unit(const yb_target_draft_t *draft)
 bool yb_target_draft_begin(const yb_target_draft_t *draft, yb_contour_set_t *set, int spacing)
 {
     const yb_grid_t *grid = draft->grid;
-    const yb_encode_task_t *task = draft->task;
-    double width_m = yb_grid_width_m(grid);
-    double depth_m = yb_grid_depth_m(grid);
-    yb_sketch_begin(set, width_m, depth_m, (double)grid->low_m, (double)grid->high_m, spacing);
-    set->seed = task->seed & 127;
-    set->profile = task->profile;
-    set->sections = task->sections;
-    set->most_vertices = task->vertices;
-    set->gain = START_GAIN;
-    set->dimension = yb_fractal_coded(draft->dimension);
+    yb_sketch_task(set, grid, draft->task, spacing);
+    yb_fractal_dimension_of(set, draft->dimension);
+    set->gain = set->profile == YB_COMPACT ? yb_compact_gain(START_GAIN) : START_GAIN;
     if (set->profile == YB_COMPACT) {
-        set->cell = yb_compact_cell(fmax(width_m / set->east, depth_m / set->north));
-        set->unit = choose_unit(draft);
-        set->base = (int)floor((double)grid->low_m / yb_unit_m(set->unit)) - 20;
-        set->gain = yb_compact_gain(START_GAIN);
-        set->dimension = yb_compact_dimension(set->dimension);
+        uint16_t unit = choose_unit(draft);
+        yb_sketch_units(set, unit, 0, (double)grid->low_m - UNITS_BELOW * yb_unit_m(unit));
     }
     yb_sketch_corners(set, grid);
     set->corners = 0xf;
-    yb_lines_t frame = {.width_m = width_m, .depth_m = depth_m};
+    yb_lines_t frame = {.width_m = yb_grid_width_m(grid), .depth_m = yb_grid_depth_m(grid)};
     return yb_sketch_spot(set, &frame, yb_sketch_summit(grid), (double)grid->high_m,
                           YB_CONTOUR_CODE_BYTES);
 }

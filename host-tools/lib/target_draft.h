@@ -2,15 +2,15 @@
 #ifndef YB_TARGET_DRAFT_H
 #define YB_TARGET_DRAFT_H
 
-#include "encode.h"
+#include "encode_task.h"
+#include "levels.h"
 #include "target_search.h"
 
 typedef struct {
     const yb_grid_t *grid;
     const yb_encode_task_t *task;
     double dimension;
-    const double *level_m; /* heights that lines must have, rising */
-    int levels;            /* and how many; 0: any height */
+    const yb_levels_t *levels; /* that lines must have */
 } yb_target_draft_t;
 
 /* The spacing nearest to the wanted one on which the frame keeps its shape. */

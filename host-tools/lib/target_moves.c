@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "compact_code.h"
 #include "target_shapes.h"
 
 typedef bool (*move_fn)(yb_target_mover_t *mover);

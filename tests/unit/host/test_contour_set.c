@@ -1,5 +1,4 @@
 /* Editing of a contour set. */
-#include "compact_code.h"
 #include "contour_set.h"
 #include "sketch.h"
 
