@@ -9,10 +9,8 @@ typedef struct {
     uint64_t random;
     double heat; /* 1 at the start, 0 at the end: how far changes go */
     yb_contour_set_t *set;
+    int contour; /* what the change at hand is for, where it is for one */
 } yb_target_mover_t;
-
-/* splitmix64, as a share from 0 to 1 (1 excluded). */
-double yb_target_random(yb_target_mover_t *mover);
 
 /* One random change of mover->paper. False: this one was not possible. */
 bool yb_target_move(yb_target_mover_t *mover);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "contour_code.h"
+#include "random.h"
 #include "target_moves.h"
 
 /* Fines in bits: for each unit of a fault, for each bit over the budget and each height too few;
@@ -169,7 +170,7 @@ static void try_move(state_t *state, double heat)
     if (!yb_target_move(&state->mover) || !yb_target_score(search, &state->next, &score))
         return;
     double worse = (score.cost - state->now_score.cost) / heat;
-    if (worse > 0 && yb_target_random(&state->mover) >= exp(-worse))
+    if (worse > 0 && yb_random_share(&state->mover.random) >= exp(-worse))
         return;
     state->now = state->next;
     state->now_score = score;

@@ -4,21 +4,20 @@
 #include <stdlib.h>
 
 #include "paper_code.h"
+#include "random.h"
+#include "set_moves.h"
 #include "simplify.h"
 
 static double any_height_m(yb_target_mover_t *mover)
 {
     const yb_grid_t *grid = mover->search->grid;
-    double share = 0.05 + 0.85 * yb_target_random(mover);
+    double share = 0.05 + 0.85 * yb_random_share(&mover->random);
     return (double)grid->low_m + share * (double)(grid->high_m - grid->low_m);
 }
 
-bool yb_target_drop_line(yb_target_mover_t *mover)
+bool yb_target_drop_contour(yb_target_mover_t *mover)
 {
-    int line = yb_target_any(mover, false);
-    if (line < 0)
-        return false;
-    yb_contour_set_drop(mover->set, line);
+    yb_contour_set_drop(mover->set, mover->contour);
     return true;
 }
 
@@ -32,7 +31,7 @@ bool yb_target_add_line(yb_target_mover_t *mover, double height_m, double tolera
     const yb_outline_t *chosen = NULL;
     for (int i = 0; i < level.count; i++) {
         double length = level.outline[i].length;
-        length *= random ? yb_target_random(mover) : 1;
+        length *= random ? yb_random_share(&mover->random) : 1;
         if (length > longest) {
             longest = length;
             chosen = &level.outline[i];
@@ -60,7 +59,7 @@ static double any_tolerance(yb_target_mover_t *mover)
 {
     const yb_contour_set_t *set = mover->set;
     double side = set->east > set->north ? set->east : set->north;
-    return side * (0.012 + 0.03 * yb_target_random(mover));
+    return side * (0.012 + 0.03 * yb_random_share(&mover->random));
 }
 
 bool yb_target_new_line(yb_target_mover_t *mover)
@@ -71,17 +70,16 @@ bool yb_target_new_line(yb_target_mover_t *mover)
 
 bool yb_target_other_line(yb_target_mover_t *mover)
 {
-    return yb_target_drop_line(mover) && yb_target_new_line(mover);
+    return yb_target_drop_contour(mover) && yb_target_new_line(mover);
 }
 
 bool yb_target_redraw_line(yb_target_mover_t *mover)
 {
     yb_contour_set_t *set = mover->set;
-    int line = yb_target_any(mover, false);
-    if (line < 0)
-        return false;
+    int line = mover->contour;
     double height_m = yb_contour_set_height_m(set, set->contour[line].height);
-    height_m += yb_target_bell(mover, mover->search->grid->std_m * (0.1 + 0.5 * mover->heat));
+    height_m +=
+        yb_random_bell(&mover->random, mover->search->grid->std_m * (0.1 + 0.5 * mover->heat));
     yb_contour_set_drop(set, line);
     return yb_target_add_line(mover, height_m, any_tolerance(mover), false);
 }
@@ -92,7 +90,7 @@ bool yb_target_add_spot(yb_target_mover_t *mover)
     const yb_grid_t *grid = mover->search->grid;
     double east_m = 0;
     double north_m = 0;
-    yb_judge_worst(mover->search->judge, yb_target_random(mover), &east_m, &north_m);
+    yb_judge_worst(mover->search->judge, yb_random_share(&mover->random), &east_m, &north_m);
     double width_m = yb_grid_width_m(grid);
     double depth_m = yb_grid_depth_m(grid);
     int spacing = set->spacing;
@@ -107,23 +105,13 @@ bool yb_target_add_spot(yb_target_mover_t *mover)
     return yb_contour_set_append(set, height, false, &at, 1);
 }
 
-bool yb_target_drop_spot(yb_target_mover_t *mover)
-{
-    int spot = yb_target_any(mover, true);
-    if (spot < 0)
-        return false;
-    yb_contour_set_drop(mover->set, spot);
-    return true;
-}
-
 bool yb_target_change_spot(yb_target_mover_t *mover)
 {
     yb_contour_set_t *set = mover->set;
-    int spot = yb_target_any(mover, true);
-    if (spot < 0)
-        return false;
-    if (yb_target_below(mover, 2) == 0) {
-        set->contour[spot].height = yb_target_moved(mover, set->contour[spot].height);
+    int spot = mover->contour;
+    if (yb_random_below(&mover->random, 2) == 0) {
+        set->contour[spot].height =
+            yb_move_height(&mover->random, set->contour[spot].height, yb_target_spread(mover), 1);
         return true;
     }
     int x = yb_target_step(mover);

@@ -7,24 +7,16 @@
 #include "target_moves.h"
 
 bool yb_target_new_line(yb_target_mover_t *mover);
-bool yb_target_drop_line(yb_target_mover_t *mover);
+
+/* Takes out the contour that was picked; puts another line in its place. */
+bool yb_target_drop_contour(yb_target_mover_t *mover);
 bool yb_target_other_line(yb_target_mover_t *mover);
 
 /* The same line anew, or one near it in height. */
 bool yb_target_redraw_line(yb_target_mover_t *mover);
 
 bool yb_target_add_spot(yb_target_mover_t *mover);
-bool yb_target_drop_spot(yb_target_mover_t *mover);
 bool yb_target_change_spot(yb_target_mover_t *mover);
-
-/* 0 to count - 1 */
-int yb_target_below(yb_target_mover_t *mover, int count);
-
-/* Symmetric round 0, more often small than large; within 1.5 sizes. */
-double yb_target_bell(yb_target_mover_t *mover, double size);
-
-/* A line (with `spot` a spot height, but not the summit) at random; -1: there is none. */
-int yb_target_any(yb_target_mover_t *mover, bool spot);
 
 bool yb_target_is_inner(const yb_contour_set_t *set, int x, int y);
 int yb_target_step(yb_target_mover_t *mover);
@@ -36,7 +28,7 @@ bool yb_target_shift(yb_target_mover_t *mover, int contour, int at, int x, int y
 /* The coded height nearest to a height that lines may have. */
 uint16_t yb_target_allowed(const yb_target_mover_t *mover, double height_m);
 
-/* A height somewhat higher or lower, for a spot height or a corner. */
-uint16_t yb_target_moved(yb_target_mover_t *mover, uint16_t height);
+/* How far the heights of corners and spot heights go, in units. */
+double yb_target_spread(const yb_target_mover_t *mover);
 
 #endif
