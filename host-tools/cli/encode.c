@@ -158,7 +158,7 @@ static int help(void)
           "  yamabiko encode fuji.tif -o fuji.yb --target-k 0.8\n"
           "  yamabiko encode N46E009.hgt --center 9.8 46.82 --km 15 -o davos.yb --bytes 200\n"
           "  yamabiko encode contours.gpkg --field hoehe -o hill.yb\n"
-          "  yamabiko encode sheet.png --base 100 --interval 20 --cell 2.5 -o hill.yb\n",
+          "  yamabiko encode sheet.png --base 100 --interval 20 --cell 2.5 --certify -o hill.yb\n",
           stdout);
     return CLI_OK;
 }

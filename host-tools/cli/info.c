@@ -73,14 +73,22 @@ static int help(void)
         "D is the fractal dimension of the contours of a level together, H = 2 - D is that of\n"
         "the surface: the smaller H, the rougher it is.\n"
         "\n"
+        "\"certificate\" is what --certify of yamabiko encode found: the error that nine tenths "
+        "of\n"
+        "all heights keep within, fractal detail included, and the similarity K of the contours.\n"
+        "For a code of contour lines or of a sheet they hold against the surface that was laid\n"
+        "through the lines.\n"
+        "\n"
         "  --json              the same for machines\n"
         "  --help              this text\n"
         "\n",
         stdout);
     fputs(cli_part_help, stdout);
     fputs("\n"
-          "Example:\n"
-          "  yamabiko info fuji.yb\n",
+          "Examples:\n"
+          "  yamabiko info fuji.yb\n"
+          "  yamabiko encode sheet.png --base 100 --interval 20 --certify -o hill.yb\n"
+          "  yamabiko info hill.yb --json\n",
           stdout);
     return CLI_OK;
 }
