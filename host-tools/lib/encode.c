@@ -15,7 +15,6 @@
 #include "sketch.h"
 
 enum {
-    FREE_LEVELS = 6,       /* drafts have 1 to so many levels when their heights are free */
     USUAL_TRIALS = 224000, /* at effort 5; each step is three times as many */
     FEW_BYTES = 40,        /* below that, corner heights cost too much to begin with */
     DRAFTS = 4,            /* one for each spacing of the lattice */
@@ -26,6 +25,12 @@ enum {
 static const double tolerances[] = {0.01, 0.014, 0.02, 0.028, 0.04, 0.056, 0.08, 0.11, 0.16};
 enum {
     TOLERANCES = sizeof(tolerances) / sizeof(tolerances[0])
+};
+
+/* So many levels drafts have when their heights are free. */
+static const int level_counts[] = {1, 2, 3, 4, 5, 6, 8, 10, 13, 16};
+enum {
+    DRAFT_COUNTS = sizeof(level_counts) / sizeof(level_counts[0])
 };
 
 /* Temperatures of the search, as shares of the error. */
@@ -82,7 +87,8 @@ static bool divides(const encoder_t *encoder, double height_m)
 }
 
 /* Unit and interval of the compact profile: where lines must lie at given levels, a part of the
- * least step between two of them if it fits all; else a fifth of the relief's deviation.
+ * least step between two of them if it fits all; else a part of the relief's deviation, the smaller
+ * the longer the code: rounding must stay well below the error that is left.
  */
 static void choose_unit(const encoder_t *encoder, yb_contour_set_t *set)
 {
@@ -90,8 +96,9 @@ static void choose_unit(const encoder_t *encoder, yb_contour_set_t *set)
     double step_m = encoder->levels.count > 0 ? encoder->levels.height_m[0] : 0;
     for (int i = 1; i < encoder->levels.count; i++)
         step_m = fmin(step_m, encoder->levels.height_m[i] - encoder->levels.height_m[i - 1]);
-    uint16_t unit = yb_compact_unit(
-        encoder->levels.count > 0 ? (double)(grid->high_m - grid->low_m) / 256 : grid->std_m / 5);
+    uint16_t unit = yb_compact_unit(encoder->levels.count > 0
+                                        ? (double)(grid->high_m - grid->low_m) / 256
+                                        : 20 * grid->std_m / (double)encoder->task->most_bytes);
     int interval = 0;
     /* Powers of two first: lines then skip units that spot heights have. */
     static const int parts[] = {4, 2, 1, 8, 5, 3, 10, 6, 7, 20, 25, 9};
@@ -203,10 +210,11 @@ static bool make_drafts(encoder_t *encoder, yb_error_t *error)
     if (encoder->levels.count > 0 &&
         !draft_levels(encoder, encoder->levels.height_m, encoder->levels.count, error))
         return false;
-    for (int levels = 1; levels <= FREE_LEVELS && encoder->levels.count == 0; levels++) {
-        double level_m[FREE_LEVELS];
-        for (int i = 0; i < levels; i++)
-            level_m[i] = yb_sketch_quantile(encoder->grid, (i + 0.5) / levels);
+    for (int i = 0; i < DRAFT_COUNTS && encoder->levels.count == 0; i++) {
+        double level_m[YB_ENCODE_MOST_LEVELS];
+        int levels = level_counts[i];
+        for (int k = 0; k < levels; k++)
+            level_m[k] = yb_sketch_quantile(encoder->grid, (k + 0.5) / levels);
         if (!draft_levels(encoder, level_m, levels, error))
             return false;
     }

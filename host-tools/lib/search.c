@@ -11,9 +11,11 @@ enum {
     REPORTED = 512 /* trials */
 };
 
-/* By what share a bit makes a code worse: within the budget, and beyond it. */
-static const double bit_cost = 1e-4;
-static const double bit_fine = 2e-3;
+/* By what share a hundredth of the budget makes a code worse: within the budget, and beyond it. */
+static const double cost_of_share = 8e-4;
+static const double fine_of_share = 1.6e-2;
+/* A code that fills less of the budget wants to grow. */
+static const double full_share = 0.97;
 
 /* Where the search stands. */
 typedef struct {
@@ -23,9 +25,10 @@ typedef struct {
 } state_t;
 
 /* What a code costs: how far it is from the truth, and so much for each bit. Codes that are a
- * little too long are let by, for a fine: the way to a better one may lead over them.
+ * little too long are let by, for a fine: the way to a better one may lead over them. Negative: the
+ * code is impossible. *share: how much of the budget it fills.
  */
-static double cost_of(state_t *state, const yb_contour_set_t *set, bool *fits)
+static double cost_of(state_t *state, const yb_contour_set_t *set, bool *fits, double *share)
 {
     uint8_t code[YB_CONTOUR_CODE_BYTES];
     yb_bits_t bits = {0};
@@ -34,9 +37,10 @@ static double cost_of(state_t *state, const yb_contour_set_t *set, bool *fits)
     if (size == 0)
         return -1;
     *fits = size <= most;
+    *share = bits.all / (8.0 * (double)most);
     double score = yb_judge_score_m(state->task->judge, code, size);
-    double over = fmax(bits.all - 8.0 * (double)most, 0);
-    return score < 0 ? -1 : score * exp(bit_cost * bits.all + bit_fine * over);
+    double over = fmax(*share - 1, 0);
+    return score < 0 ? -1 : score * exp(100 * (cost_of_share * *share + fine_of_share * over));
 }
 
 static void report(yb_progress_t *progress, double share)
@@ -59,7 +63,9 @@ double yb_search_run(const yb_search_t *search, yb_contour_set_t *set)
     state->now = *set;
     state->best = *set;
     bool fits = false;
-    double now = cost_of(state, set, &fits);
+    double share = 0;
+    double now = cost_of(state, set, &fits, &share);
+    state->mover.grows = share < full_share;
     double best = now;
     for (long trial = 0; trial < search->trials && best >= 0; trial++) {
         double done = (double)trial / (double)search->trials;
@@ -70,7 +76,7 @@ double yb_search_run(const yb_search_t *search, yb_contour_set_t *set)
         do
             state->next = state->now;
         while (!yb_search_move(&state->mover));
-        double next = cost_of(state, &state->next, &fits);
+        double next = cost_of(state, &state->next, &fits, &share);
         if (next < 0)
             continue;
         double worse = log(next / now) / heat;
@@ -78,6 +84,7 @@ double yb_search_run(const yb_search_t *search, yb_contour_set_t *set)
             continue;
         state->now = state->next;
         now = next;
+        state->mover.grows = share < full_share;
         if (now < best && fits) {
             best = now;
             state->best = state->now;

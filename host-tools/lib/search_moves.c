@@ -450,6 +450,13 @@ static bool change_twice(yb_search_mover_t *mover)
     return first || second;
 }
 
+/* A spot height where the surface is wrong, or a point of a line. */
+static bool grow(yb_search_mover_t *mover)
+{
+    return yb_random_share(&mover->random) < 0.6 ? add_spot(mover)
+                                                 : pick_point(mover) && add_point(mover);
+}
+
 bool yb_search_move(yb_search_mover_t *mover)
 {
     static const struct {
@@ -478,6 +485,8 @@ bool yb_search_move(yb_search_mover_t *mover)
                  {2, NULL, reorder},
                  {3, NULL, change_unit},
                  {1, NULL, change_base}};
+    if (mover->grows && yb_random_share(&mover->random) < 0.5)
+        return grow(mover);
     int ticket = yb_random_below(&mover->random, 216);
     int i = 0;
     while (ticket >= moves[i].weight)

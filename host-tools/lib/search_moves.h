@@ -8,6 +8,7 @@ typedef struct {
     const yb_search_t *search;
     uint64_t random;
     double heat; /* 1 at the start, 0 at the end: how far changes go */
+    bool grows;  /* there is room in the code: half of the changes add something */
     yb_contour_set_t *set;
     int contour, first, point; /* what the change at hand is for, and the contour's first point */
 } yb_search_mover_t;
