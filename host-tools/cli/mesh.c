@@ -232,17 +232,14 @@ int cli_mesh(int argc, char **argv)
         case OPTION_HELP:
             return help();
         default:
-            status = cli_part_owns(answer) ? cli_part_take(&request.part, answer, argc, argv)
-                                           : cli_bad_option(answer, argc, argv);
+            status = cli_part_take_rest(&request.part, answer, argc, argv);
             break;
         }
     }
-    status = status == CLI_OK ? cli_part_check(&request.part) : status;
+    status =
+        status == CLI_OK ? cli_part_one_map(&request.part, argc, argv, &request.input) : status;
     if (status != CLI_OK)
         return status;
-    if (optind + 1 != argc)
-        return cli_usage("name one map, MAP.yb");
-    request.input = argv[optind];
     status = check(&request);
     return status != CLI_OK ? status : run(&request);
 }

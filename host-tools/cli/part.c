@@ -81,6 +81,23 @@ int cli_part_check(cli_part_t *part)
     return CLI_OK;
 }
 
+int cli_part_take_rest(cli_part_t *part, int answer, int argc, char **argv)
+{
+    return cli_part_owns(answer) ? cli_part_take(part, answer, argc, argv)
+                                 : cli_bad_option(answer, argc, argv);
+}
+
+int cli_part_one_map(cli_part_t *part, int argc, char **argv, const char **path)
+{
+    int status = cli_part_check(part);
+    if (status != CLI_OK)
+        return status;
+    if (optind + 1 != argc)
+        return cli_usage("name one map, MAP.yb");
+    *path = argv[optind];
+    return CLI_OK;
+}
+
 yb_code_file_t *cli_part_read_map(const cli_part_t *part, const char *path)
 {
     yb_error_t error;

@@ -45,6 +45,12 @@ bool cli_part_owns(int answer);
 int cli_part_take(cli_part_t *part, int answer, int argc, char **argv);
 int cli_part_check(cli_part_t *part);
 
+/* For verbs with these options after their own: what `default` does with any other answer; and, in
+ * the end, cli_part_check and the one map that they are given. CLI_OK or CLI_USAGE, said.
+ */
+int cli_part_take_rest(cli_part_t *part, int answer, int argc, char **argv);
+int cli_part_one_map(cli_part_t *part, int argc, char **argv, const char **path);
+
 /* A map from a code or contour lines. What of the lines cannot be kept is said on the standard
  * error. NULL: it has been said why not.
  */

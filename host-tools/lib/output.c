@@ -184,14 +184,14 @@ void yb_output_close(yb_output_t *output)
     free(output);
 }
 
-bool yb_output_write(const char *path, bool force, const void *bytes, size_t size,
-                     yb_error_t *error)
+bool yb_output_stream(const char *path, bool force, yb_output_write_fn write, const void *context,
+                      yb_error_t *error)
 {
     yb_output_t *output = yb_output_open(path, force, error);
     if (output == NULL)
         return false;
     FILE *stream = fopen(output->path, "wb");
-    bool good = stream != NULL && fwrite(bytes, 1, size, stream) == size;
+    bool good = stream != NULL && write(stream, context);
     if (stream != NULL && fclose(stream) != 0)
         good = false;
     if (!good)
@@ -199,4 +199,22 @@ bool yb_output_write(const char *path, bool force, const void *bytes, size_t siz
     good = good && yb_output_commit(output, error);
     yb_output_close(output);
     return good;
+}
+
+typedef struct {
+    const void *bytes;
+    size_t size;
+} bytes_t;
+
+static bool write_bytes(FILE *stream, const void *context)
+{
+    const bytes_t *all = context;
+    return fwrite(all->bytes, 1, all->size, stream) == all->size;
+}
+
+bool yb_output_write(const char *path, bool force, const void *bytes, size_t size,
+                     yb_error_t *error)
+{
+    const bytes_t all = {bytes, size};
+    return yb_output_stream(path, force, write_bytes, &all, error);
 }

@@ -16,6 +16,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "error.h"
 
@@ -40,7 +41,12 @@ bool yb_output_commit(yb_output_t *output, yb_error_t *error);
 /* Removes what was not committed. NULL does nothing. */
 void yb_output_close(yb_output_t *output);
 
-/* All of it for bytes at hand. */
+/* All of it: opens a stream, lets `write` fill it, commits. */
+typedef bool (*yb_output_write_fn)(FILE *stream, const void *context);
+bool yb_output_stream(const char *path, bool force, yb_output_write_fn write, const void *context,
+                      yb_error_t *error);
+
+/* The same for bytes at hand. */
 bool yb_output_write(const char *path, bool force, const void *bytes, size_t size,
                      yb_error_t *error);
 
