@@ -7,7 +7,7 @@ A line is group, name, target, value, unit, budget, separated by tabs; without a
 "-". A group is a module tests/budget/group_<name>.py whose measure() yields (name, target, value,
 unit). The budgets are in budgets.tsv; with --check the exit status is 1 if an enforced one is
 exceeded, or if an enforced figure was not measured. With --page they are written as a page of
-tables as well: that is how docs/BENCHMARKS.md is made.
+tables as well, in which other groups stay as they are: that is how docs/BENCHMARKS.md is made.
 """
 
 import argparse
@@ -36,18 +36,27 @@ many cells at the contours' own heights); the sum of the differences from the DE
 """
 
 
-def write_page(path, lines):
-    page = PAGE_HEAD
-    group = None
-    for name, figure, target, value, unit, most in lines:
-        if name != group:
-            page += f"\n## {name.capitalize()}\n\n| figure | target | value | unit | most |\n| --- | --- | ---: | --- | ---: |\n"
-            group = name
+def table(lines):
+    text = "| figure | target | value | unit | most |\n| --- | --- | ---: | --- | ---: |\n"
+    for _, figure, target, value, unit, most in lines:
         shown = f"{int(value):,}" if str(value).isdigit() else str(value)
         if most != "-" and float(value) > float(most):
             shown = f"**{shown}**"
-        page += f"| {figure} | {target} | {shown} | {unit} | {most} |\n"
-    pathlib.Path(path).write_text(page, encoding="utf-8")
+        text += f"| {figure} | {target} | {shown} | {unit} | {most} |\n"
+    return text
+
+
+def write_page(path, lines):
+    """Tables of groups that were not measured now stay as they are."""
+    path = pathlib.Path(path)
+    old = path.read_text(encoding="utf-8").split("\n## ")[1:] if path.exists() else []
+    tables = dict(part.rstrip().split("\n\n", 1) for part in old)
+    for group in {line[0] for line in lines}:
+        tables[group.capitalize()] = table(line for line in lines if line[0] == group).rstrip()
+    page = PAGE_HEAD
+    for name in sorted(tables):
+        page += f"\n## {name}\n\n{tables[name]}\n"
+    path.write_text(page, encoding="utf-8")
 
 
 def read_budgets():

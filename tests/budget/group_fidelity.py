@@ -21,8 +21,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build" / "host-release" / "bin" / "yamabiko"
-SIZES = {60: (), 100: (), 200: ("--effort", "4", "--vertices", "1000"),
-         400: ("--effort", "4", "--vertices", "1000")}
+SIZES = {60: (), 100: (), 200: ("--effort", "3", "--vertices", "1000"),
+         400: ("--effort", "3", "--vertices", "1000")}
 LINES = ("dct", "bspline", "tin")
 SINGLE = ("fuji", "adams", "mauna_kea", "faial", "big_butte", "maunga_whau")
 K_BYTES = 104
