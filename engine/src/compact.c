@@ -356,9 +356,9 @@ static int signed_of(int value)
 static int take_way(yb_load_t *load, int way)
 {
     int half = load->columns + load->rows;
-    way = (load->way + way) % (2 * half);
+    way = (load->start_way + way) % (2 * half);
     way = way < 0 ? way + 2 * half : way;
-    load->way = (int16_t)way;
+    load->start_way = (int16_t)way;
     bool far = way >= half;
     way -= far ? half : 0;
     int x = fix_min(way, load->columns);

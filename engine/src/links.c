@@ -16,11 +16,11 @@ static void look_beyond(const place_t *place)
 {
     yb_load_t *load = place->load;
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] = NOWHERE;
+        load->way_to[r] = NOWHERE;
     for (int c = 0; c < load->contour_count; c++) {
         if (bounds(place, c)) {
             const yb_contour_t *line = &load->contour[c];
-            load->scratch[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
+            load->way_to[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
         }
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
@@ -32,11 +32,11 @@ static void look_beyond(const place_t *place)
             const yb_contour_t *line = &load->contour[c];
             if (!is_line(line) || bounds(place, c))
                 continue;
-            yb_index_t l = load->scratch[line->left];
-            yb_index_t r = load->scratch[line->right];
+            yb_index_t l = load->way_to[line->left];
+            yb_index_t r = load->way_to[line->right];
             if (l == r)
                 continue;
-            load->scratch[l == NOWHERE ? line->left : line->right] = l == NOWHERE ? r : l;
+            load->way_to[l == NOWHERE ? line->left : line->right] = l == NOWHERE ? r : l;
             changed = true;
         }
     }
@@ -47,7 +47,7 @@ int line_before(const place_t *place, int s)
     const yb_contour_t *spot = &place->load->contour[s];
     if (is_line(spot) || spot->left == place->region)
         return NOWHERE;
-    return place->load->scratch[spot->left];
+    return place->load->way_to[spot->left];
 }
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
@@ -97,7 +97,7 @@ static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
         int at = corner_of(map, t, p);
         yb_index_t q = map->triangle[t][next3(at)];
-        if (load->region[t] == place->region && load->neighbour[t][at] < NO_TRIANGLE &&
+        if (load->region[t] == place->region && entry_of(load, t, at) < NO_TRIANGLE &&
             map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
             return true;
     }
@@ -115,13 +115,13 @@ static yb_status_t fan(const place_t *place, int line)
         yb_index_t p = (yb_index_t)(contour->first + k);
         int s = ruler_of(place, p, -1);
         yb_index_t summit = s < 0 ? p : load->contour[s].first;
-        load->branch[p].parent = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
+        load->wish[p] = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
     }
     for (int k = 0; k < contour->count; k++) {
         yb_index_t p = (yb_index_t)(contour->first + k);
-        yb_index_t summit = load->branch[p].parent;
+        yb_index_t summit = load->wish[p];
         if (summit != p && mesh_sees(place->map, load, p, summit) &&
-            mesh_force_edge(place->map, load, p, summit, YB_RULE_SUMMIT) != YB_OK)
+            mesh_force_edge(place->map, load, p, summit) != YB_OK)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
@@ -211,7 +211,7 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
         if (near.point < 0)
             return YB_OK;
         if (mesh_sees(place->map, load, p, (yb_index_t)near.point))
-            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point, YB_RULE_SLOPE);
+            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point);
     }
     return YB_OK;
 }
@@ -294,12 +294,35 @@ yb_rule_t yb_vertex_rule(const yb_load_t *load, yb_index_t vertex)
                                           : YB_RULE_CONTOUR;
 }
 
+/* The contour of a coded point. */
+static const yb_contour_t *contour_of(const yb_load_t *load, yb_index_t v)
+{
+    int from = 0;
+    for (int end = load->contour_count; end - from > 1;) {
+        int middle = (from + end) / 2;
+        *(load->contour[middle].first <= v ? &from : &end) = middle;
+    }
+    return &load->contour[from];
+}
+
+/* Why an edge is marked follows from its ends: each rule links another pair of kinds. */
+static yb_rule_t rule_of_marked(const yb_load_t *load, yb_index_t low, yb_index_t high)
+{
+    if (high >= load->point_count)
+        return yb_vertex_rule(load, high);
+    const yb_contour_t *a = contour_of(load, low);
+    const yb_contour_t *b = contour_of(load, high);
+    if (!is_line(a) || !is_line(b))
+        return YB_RULE_SUMMIT;
+    return a == b ? YB_RULE_CONTOUR : YB_RULE_SLOPE;
+}
+
 yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t triangle, int edge)
 {
     yb_index_t a = map->triangle[triangle][edge];
     yb_index_t b = map->triangle[triangle][next3(edge)];
-    if (mark_of(load, triangle, edge) != YB_RULE_NONE)
-        return mark_of(load, triangle, edge);
+    if (is_marked(load, triangle, edge))
+        return rule_of_marked(load, a < b ? a : b, a < b ? b : a);
     /* The way that a branch of a skeleton takes, its beginning included. */
     for (int k = 0; k < 2; k++) {
         yb_index_t v = k == 0 ? a : b;

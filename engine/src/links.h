@@ -8,7 +8,7 @@ enum {
     NOWHERE = YB_MAX_CONTOURS /* no line leads there */
 };
 
-/* A region while its rules are applied; load->scratch[r] is the line of it that leads to region r.
+/* A region while its rules are applied; load->way_to[r] is the line of it that leads to region r.
  */
 typedef struct {
     yb_map_t *map;

@@ -6,6 +6,18 @@ int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
     return map->triangle[t][0] == v ? 0 : map->triangle[t][1] == v ? 1 : 2;
 }
 
+yb_entry_t entry_of(const yb_load_t *load, yb_triangle_t t, int edge)
+{
+    return (yb_entry_t)(load->across[t] >> (edge * ENTRY_BITS)) & ENTRY_ALL;
+}
+
+void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry)
+{
+    int shift = edge * ENTRY_BITS;
+    yb_across_t others = load->across[t] & ~((yb_across_t)ENTRY_ALL << shift);
+    load->across[t] = others | (yb_across_t)entry << shift;
+}
+
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
 {
     int32_t abx = (b->x_q8 >> 2) - (a->x_q8 >> 2);

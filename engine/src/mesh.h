@@ -4,8 +4,9 @@
  *          ─► skeleton_add ─► relief_prepare
  *
  * A triangle is three vertices, counter-clockwise; its edge i runs from corner i to corner i + 1,
- * and neighbour[t][i] is the triangle across it. An edge that must stay is *marked*, in both
- * neighbour entries, with the rule it stands for; a marked edge is never flipped nor crossed.
+ * and the entry across it is the triangle there, or NO_TRIANGLE. An edge that must stay (a
+ * contour's, or a link) is *marked*, in the entries from both sides; it is never flipped nor
+ * crossed.
  */
 #ifndef YB_MESH_H
 #define YB_MESH_H
@@ -15,10 +16,17 @@
 #include "fix.h"
 
 enum {
-    UNKNOWN_HEIGHT = INT32_MIN,
-    MARK_SHIFT = 8 * sizeof(yb_entry_t) - 4,
-    NO_TRIANGLE = (1 << MARK_SHIFT) - 1 /* across the frame */
+    UNKNOWN_HEIGHT = INT32_MIN
 };
+
+/* An entry: a triangle, and the mark. Three make a word of load->across. */
+enum {
+    ENTRY_BITS = sizeof(yb_across_t) == 4 ? 10 : 20,
+    ENTRY_MARK = 1L << (ENTRY_BITS - 1),
+    NO_TRIANGLE = ENTRY_MARK - 1, /* across the frame */
+    ENTRY_ALL = ENTRY_MARK | NO_TRIANGLE
+};
+typedef yb_triangle_t yb_entry_t;
 
 static inline int next3(int i)
 {
@@ -30,15 +38,20 @@ static inline int prev3(int i)
     return i == 0 ? 2 : i - 1;
 }
 
+/* What lies across edge `edge` of t: above NO_TRIANGLE if it is marked. */
+yb_entry_t entry_of(const yb_load_t *load, yb_triangle_t t, int edge);
+
+void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry);
+
 static inline yb_triangle_t neighbour_of(const yb_load_t *load, yb_triangle_t t, int edge)
 {
-    return load->neighbour[t][edge] & NO_TRIANGLE;
+    return entry_of(load, t, edge) & NO_TRIANGLE;
 }
 
-/* Why an edge must stay: the upper bits of a neighbour entry. */
-static inline yb_rule_t mark_of(const yb_load_t *load, yb_triangle_t t, int edge)
+/* Must an edge stay? */
+static inline bool is_marked(const yb_load_t *load, yb_triangle_t t, int edge)
 {
-    return (yb_rule_t)(load->neighbour[t][edge] >> MARK_SHIFT);
+    return entry_of(load, t, edge) > NO_TRIANGLE;
 }
 
 /* Which corner of triangle t vertex v is; v is one of them. */
@@ -81,9 +94,9 @@ void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_in
 /* Makes the edges round the new vertex p Delaunay. */
 void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p);
 
-/* Makes ab an edge with a mark; corrupt if a marked edge or a vertex is in its way. */
+/* Makes ab a marked edge; corrupt if another or a vertex is in its way. */
 YB_MUST_CHECK yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a,
-                                          yb_index_t b, yb_rule_t mark);
+                                          yb_index_t b);
 
 /* Flips what is not marked until it is Delaunay. */
 void mesh_make_delaunay(yb_map_t *map, yb_load_t *load);

@@ -105,8 +105,7 @@ static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
             least = length;
         }
     }
-    return nearest < 0 ? YB_OK
-                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
+    return nearest < 0 ? YB_OK : mesh_force_edge(place->map, load, m, (yb_index_t)nearest);
 }
 
 static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
@@ -128,7 +127,7 @@ static int side_in(const place_t *place, yb_triangle_t t, const yb_vertex_t *p)
     for (int i = 0; i < 3; i++) {
         int32_t side =
             area_of(&v[place->map->triangle[t][i]], &v[place->map->triangle[t][next3(i)]], p);
-        if (side < 0 || (side == 0 && (on >= 0 || mark_of(place->load, t, i) != YB_RULE_NONE)))
+        if (side < 0 || (side == 0 && (on >= 0 || is_marked(place->load, t, i))))
             return OUTSIDE;
         if (side == 0)
             on = i;
@@ -223,7 +222,7 @@ static bool comes_after(const pair_t *pair, const pair_t *last)
     return pair->a > last->a || (pair->a == last->a && pair->b > last->b);
 }
 
-/* The nearest pair of peaks (branch[s].parent: the line that spot height s stands behind) whose
+/* The nearest pair of peaks (wish[s]: the line that spot height s stands behind) whose
  * lines are not joined yet and that comes after `last`, in the order of distance, then of the spot
  * heights' numbers.
  */
@@ -232,9 +231,9 @@ static bool next_pair(const level_t *level, const pair_t *last, pair_t *next)
     const yb_load_t *load = level->place->load;
     bool found = false;
     for (int a = 0; a < all_contours(load); a++) {
-        int line_a = load->branch[a].parent;
+        int line_a = load->wish[a];
         for (int b = a + 1; b < all_contours(load) && line_a != NOWHERE; b++) {
-            int line_b = load->branch[b].parent;
+            int line_b = load->wish[b];
             if (line_b == NOWHERE || line_b == line_a ||
                 group_of(load, line_a) == group_of(load, line_b))
                 continue;
@@ -260,14 +259,13 @@ static yb_status_t join_level(const level_t *level)
     pair_t pair = last;
     int refusals = 0;
     for (int s = 0; s < all_contours(load); s++)
-        load->branch[s].parent = (yb_index_t)peak_behind(level, s);
+        load->wish[s] = (yb_index_t)peak_behind(level, s);
     while (refusals < MOST_REFUSALS && next_pair(level, &last, &pair)) {
         bool joined = false;
         if (join(level, &pair, &joined) != YB_OK)
             return YB_ERR_LIMIT;
         if (joined)
-            load->group[group_of(load, load->branch[pair.a].parent)] =
-                group_of(load, load->branch[pair.b].parent);
+            load->group[group_of(load, load->wish[pair.a])] = group_of(load, load->wish[pair.b]);
         else
             refusals++;
         last = pair;

@@ -19,8 +19,8 @@ static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t 
 {
     yb_index_t a = map->triangle[t][i];
     yb_index_t b = map->triangle[t][next3(i)];
-    return mark_of(load, t, i) == YB_RULE_NONE && a < load->first_skeleton &&
-           b < load->first_skeleton && map->vertex[a].z_q8 == map->vertex[b].z_q8;
+    return !is_marked(load, t, i) && a < load->first_skeleton && b < load->first_skeleton &&
+           map->vertex[a].z_q8 == map->vertex[b].z_q8;
 }
 
 /* The vertex across edge i of t; the edge is not on the frame. */
@@ -109,7 +109,7 @@ static bool begins_branch(const yb_map_t *map, const yb_load_t *load, yb_triangl
     int32_t h = map->vertex[a].z_q8;
     yb_index_t p = map->triangle[t][prev3(i)];
     yb_index_t q = p;
-    if (load->neighbour[t][i] != NO_TRIANGLE)
+    if (entry_of(load, t, i) != NO_TRIANGLE)
         q = apex_across(map, load, t, i);
     else if (a >= load->point_count || b >= load->point_count)
         return false;
@@ -165,7 +165,7 @@ static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
             yb_index_t m = (yb_index_t)map->vertex_count;
             if (split_bridge(map, load, bridge.t, bridge.edge, parent, other) != YB_OK)
                 return YB_ERR_LIMIT;
-            load->branch[m].way = add_way(map, 0, steepness(map, load, m), parent, m);
+            load->way[m] = add_way(map, 0, steepness(map, load, m), parent, m);
         }
     }
     return YB_OK;
@@ -206,7 +206,7 @@ static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
         }
         if (split_bridge(map, load, t, i, v, q) != YB_OK)
             return YB_ERR_LIMIT;
-        load->branch[m].way = add_way(map, load->branch[v].way, weight, v, m);
+        load->way[m] = add_way(map, load->way[v], weight, v, m);
     }
     load->branch[v].grown = true;
     return YB_OK;
@@ -219,7 +219,7 @@ static yb_status_t grow_all(yb_map_t *map, yb_load_t *load)
         int next = -1;
         for (int v = load->first_skeleton; v < map->vertex_count; v++) {
             const yb_branch_t *branch = &load->branch[v];
-            if (!branch->grown && (next < 0 || branch->way < load->branch[next].way))
+            if (!branch->grown && (next < 0 || load->way[v] < load->way[next]))
                 next = v;
         }
         if (next < 0)
@@ -280,19 +280,19 @@ static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_in
 static void measure_ways(const yb_map_t *map, yb_load_t *load)
 {
     for (int v = load->first_skeleton; v < map->vertex_count; v++)
-        load->branch[v].way = 0;
+        load->way[v] = 0;
     for (int i = map->vertex_count - 1; i >= load->first_skeleton; i--) {
         yb_index_t v = (yb_index_t)i;
         yb_branch_t *branch = &load->branch[v];
-        if (branch->way == 0 && !meets(load, v))
-            branch->way = way_to_contour(map, load, v);
+        if (load->way[v] == 0 && !meets(load, v))
+            load->way[v] = way_to_contour(map, load, v);
         for (int k = 0; k < 2; k++) {
             yb_index_t p = k == 0 ? branch->parent : branch->other;
             if (p == v || p < load->first_skeleton || meets(load, p))
                 continue;
-            uint32_t way = branch->way + (uint32_t)edge_length(map, p, v);
-            if (way > load->branch[p].way) {
-                load->branch[p].way = way;
+            uint32_t way = load->way[v] + (uint32_t)edge_length(map, p, v);
+            if (way > load->way[p]) {
+                load->way[p] = way;
                 load->branch[p].end = meets(load, v) ? v : branch->end == v ? p : branch->end;
             }
         }
@@ -315,7 +315,7 @@ static void set_heights(yb_map_t *map, yb_load_t *load)
         int32_t from = map->vertex[branch->parent].z_q8;
         int32_t to = map->vertex[branch->end].z_q8; /* h, if that is v itself */
         int32_t step = edge_length(map, branch->parent, v);
-        int32_t z = from + (int32_t)((int64_t)(to - from) * step / (step + (int64_t)branch->way));
+        int32_t z = from + (int32_t)((int64_t)(to - from) * step / (step + (int64_t)load->way[v]));
         bool begins = branch->parent < load->first_skeleton;
         map->vertex[v].z_q8 = keep_off(z, h, from, begins ? fix_abs(h - from) / 8 : 0);
     }

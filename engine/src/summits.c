@@ -9,7 +9,7 @@
 
 /* --- How high -------------------------------------------------------------------------------- */
 
-/* What load->scratch says of a region. */
+/* What load->ground says of a region. */
 enum {
     FLAT = 1,  /* of one height */
     BESIDE = 2 /* shares a line with the region in question */
@@ -20,14 +20,14 @@ static bool look_beside(yb_load_t *load, yb_index_t region)
 {
     bool sloping = false;
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] &= FLAT;
+        load->ground[r] &= FLAT;
     for (int c = 0; c < load->contour_count; c++) {
         const yb_contour_t *line = &load->contour[c];
         if (line->left == line->right || (line->left != region && line->right != region))
             continue;
         yb_index_t other = line->left == region ? line->right : line->left;
-        sloping = sloping || (load->scratch[other] & FLAT) == 0;
-        load->scratch[other] |= BESIDE;
+        sloping = sloping || (load->ground[other] & FLAT) == 0;
+        load->ground[other] |= BESIDE;
     }
     return sloping;
 }
@@ -39,7 +39,7 @@ static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, int3
 {
     int32_t rise = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3 && (load->scratch[load->region[t]] & BESIDE) != 0; i++) {
+        for (int i = 0; i < 3 && (load->ground[load->region[t]] & BESIDE) != 0; i++) {
             int32_t up = h - map->vertex[map->triangle[t][i]].z_q8;
             bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
             if (up != 0 && nearer)
@@ -61,7 +61,7 @@ typedef struct {
     int64_t outside; /* area of the triangles beyond those segments */
 } surroundings_t;
 
-static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
+static void look_round(const yb_map_t *map, const yb_load_t *load, yb_index_t region,
                        surroundings_t *found)
 {
     *found = (surroundings_t){0};
@@ -71,7 +71,7 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
         const yb_index_t *v = map->triangle[t];
         found->area += orientation(map, v[0], v[1], v[2]);
         for (int i = 0; i < 3; i++) {
-            if (mark_of(load, t, i) != YB_RULE_CONTOUR)
+            if (!is_marked(load, t, i))
                 continue;
             int apex = 0;
             const yb_index_t *w = map->triangle[across(map, load, t, i, &apex)];
@@ -93,8 +93,7 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
  * But between 1/8 and 7/8 of an interval, the mean rise outside; and by half of it where there is
  * no slope to go by. 0: there is no other height round about.
  */
-static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
-                           int32_t h)
+static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_index_t region, int32_t h)
 {
     surroundings_t round;
     look_round(map, load, region, &round);
@@ -140,14 +139,14 @@ static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
  * the chord of an empty circle. If just one of the two triangles at it is acute, the circle's
  * centre lies in that one, and so does the place. A region of one triangle has its place inside.
  */
-static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region)
+static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_index_t region)
 {
     spot_t spot = {.beyond = true};
     mesh_edge_t best = {0};
     int32_t widest = -1;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3 && load->region[t] == region; i++) {
-            bool alone = load->neighbour[t][i] >= NO_TRIANGLE;
+            bool alone = entry_of(load, t, i) >= NO_TRIANGLE;
             if (alone && !spot.beyond)
                 continue; /* there is a better kind of edge */
             mesh_edge_t edge = mesh_edge_at(map, t, i);
@@ -190,7 +189,7 @@ static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot
         return YB_ERR_LIMIT;
     mesh_split(map, load, spot->t, spot->beyond ? -1 : spot->edge, p);
     mesh_legalise(map, load, p);
-    yb_index_t region = (yb_index_t)load->region[load->star[p]];
+    yb_index_t region = load->region[load->star[p]];
     load->contour[load->contour_count + load->summit_count++] =
         (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
     return YB_OK;
@@ -199,10 +198,10 @@ static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot
 yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] = FLAT;
+        load->ground[r] = FLAT;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (!is_flat(map, t))
-            load->scratch[load->region[t]] = 0;
+            load->ground[load->region[t]] = 0;
     }
     /* A region may have to wait until its neighbour has a second height: round and round until
      * nothing changes. What stays flat then is a map of one height. */
@@ -211,7 +210,7 @@ yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
         for (int c = 0; c < 2 * load->contour_count; c++) {
             const yb_contour_t *contour = &load->contour[c >> 1];
             yb_index_t region = (c & 1) == 0 ? contour->left : contour->right;
-            if ((load->scratch[region] & FLAT) == 0 || !look_beside(load, region))
+            if ((load->ground[region] & FLAT) == 0 || !look_beside(load, region))
                 continue;
             int32_t h = map->vertex[contour->first].z_q8;
             spot_t spot = widest_place(map, load, region);
@@ -220,7 +219,7 @@ yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
                 rise = -rise;
             if (add_summit(map, load, &spot, h + rise) != YB_OK)
                 return YB_ERR_LIMIT;
-            load->scratch[region] = 0;
+            load->ground[region] = 0;
             changed = true;
         }
     }

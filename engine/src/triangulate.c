@@ -24,12 +24,12 @@ static void put_triangle(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_ind
 static void link_edge(const yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i,
                       yb_entry_t entry)
 {
-    load->neighbour[t][i] = entry;
+    set_entry(load, t, i, entry);
     yb_triangle_t u = entry & NO_TRIANGLE;
     if (u == NO_TRIANGLE)
         return;
     int j = corner_of(map, u, map->triangle[t][next3(i)]);
-    load->neighbour[u][j] = (yb_entry_t)(t | (entry & ~(yb_entry_t)NO_TRIANGLE));
+    set_entry(load, u, j, (yb_entry_t)(t | (entry & ENTRY_MARK)));
 }
 
 /* Replaces the common edge ab of t and its neighbour by the other diagonal dc of their quad. With
@@ -43,10 +43,10 @@ static void flip(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i)
     yb_index_t c = map->triangle[t][prev3(i)];
     int j = corner_of(map, u, b);
     yb_index_t d = map->triangle[u][prev3(j)];
-    yb_entry_t bc = load->neighbour[t][next3(i)];
-    yb_entry_t ca = load->neighbour[t][prev3(i)];
-    yb_entry_t ad = load->neighbour[u][next3(j)];
-    yb_entry_t db = load->neighbour[u][prev3(j)];
+    yb_entry_t bc = entry_of(load, t, next3(i));
+    yb_entry_t ca = entry_of(load, t, prev3(i));
+    yb_entry_t ad = entry_of(load, u, next3(j));
+    yb_entry_t db = entry_of(load, u, prev3(j));
     put_triangle(map, load, t, a, d, c);
     put_triangle(map, load, u, d, b, c);
     link_edge(map, load, t, 0, ad);
@@ -85,7 +85,7 @@ static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_
 /* Is edge i of t to be flipped? */
 static bool illegal(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
 {
-    yb_entry_t entry = load->neighbour[t][i];
+    yb_entry_t entry = entry_of(load, t, i);
     if (entry >= NO_TRIANGLE) /* the frame, or marked */
         return false;
     const yb_index_t *v = map->triangle[t];
@@ -152,9 +152,9 @@ void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_in
     yb_index_t a = map->triangle[t][i];
     yb_index_t b = map->triangle[t][next3(i)];
     yb_index_t c = map->triangle[t][prev3(i)];
-    yb_entry_t ab = load->neighbour[t][i];
-    yb_entry_t bc = load->neighbour[t][next3(i)];
-    yb_entry_t ca = load->neighbour[t][prev3(i)];
+    yb_entry_t ab = entry_of(load, t, i);
+    yb_entry_t bc = entry_of(load, t, next3(i));
+    yb_entry_t ca = entry_of(load, t, prev3(i));
     yb_triangle_t u = map->triangle_count++;
     load->region[u] = load->region[t];
     put_triangle(map, load, t, b, c, p);
@@ -163,8 +163,8 @@ void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_in
     link_edge(map, load, u, 0, ca);
     link_edge(map, load, t, 1, u);
     if (edge >= 0 && ab == NO_TRIANGLE) {
-        load->neighbour[t][2] = NO_TRIANGLE;
-        load->neighbour[u][1] = NO_TRIANGLE;
+        set_entry(load, t, 2, NO_TRIANGLE);
+        set_entry(load, u, 1, NO_TRIANGLE);
         return;
     }
     yb_triangle_t w = map->triangle_count++;
@@ -183,8 +183,10 @@ static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
     map->triangle_count = 2;
     put_triangle(map, load, 0, corner[0], corner[1], corner[2]);
     put_triangle(map, load, 1, corner[0], corner[2], corner[3]);
-    load->neighbour[0][0] = load->neighbour[0][1] = NO_TRIANGLE;
-    load->neighbour[1][1] = load->neighbour[1][2] = NO_TRIANGLE;
+    set_entry(load, 0, 0, NO_TRIANGLE);
+    set_entry(load, 0, 1, NO_TRIANGLE);
+    set_entry(load, 1, 1, NO_TRIANGLE);
+    set_entry(load, 1, 2, NO_TRIANGLE);
     link_edge(map, load, 0, 2, 1);
     mesh_legalise(map, load, corner[0]);
     mesh_legalise(map, load, corner[1]);
@@ -274,7 +276,7 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t 
     yb_index_t right_before = a;
     yb_index_t left_before = a;
     for (;;) {
-        if (mark_of(load, t, edge) != YB_RULE_NONE)
+        if (is_marked(load, t, edge))
             return YB_ERR_CORRUPT; /* two contours cross */
         yb_triangle_t u = neighbour_of(load, t, edge);
         int j = corner_of(map, u, left);
@@ -308,8 +310,7 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t 
  * vertex off the channel's sides (those edges that it had across the channel are flipped to its
  * neighbours), until none is left between a and b. Each vertex leaves once: it always ends.
  */
-yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b,
-                            yb_rule_t mark)
+yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b)
 {
     for (;;) {
         bool is_edge = false;
@@ -320,8 +321,7 @@ yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_ind
             int i = corner_of(map, t, a);
             if (map->triangle[t][next3(i)] != b)
                 i = prev3(i);
-            link_edge(map, load, t, i,
-                      (yb_entry_t)(neighbour_of(load, t, i) | (yb_entry_t)mark << MARK_SHIFT));
+            link_edge(map, load, t, i, entry_of(load, t, i) | ENTRY_MARK);
             return YB_OK;
         }
         if (narrow_channel(map, load, t, a, b) != YB_OK)
@@ -336,7 +336,7 @@ bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_inde
     if (t == NO_TRIANGLE || is_edge)
         return is_edge;
     int edge = next3(corner_of(map, t, a));
-    while (mark_of(load, t, edge) == YB_RULE_NONE) {
+    while (!is_marked(load, t, edge)) {
         int corner = 0;
         t = across(map, load, t, edge, &corner);
         yb_index_t apex = map->triangle[t][corner];
@@ -357,14 +357,16 @@ static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
         for (int k = 0; k < edges && contour->count > 1; k++) {
             yb_index_t a = (yb_index_t)(contour->first + k);
             yb_index_t b = (yb_index_t)(contour->first + (k + 1) % contour->count);
-            if (mesh_force_edge(map, load, a, b, YB_RULE_CONTOUR) != YB_OK)
+            if (mesh_force_edge(map, load, a, b) != YB_OK)
                 return YB_ERR_CORRUPT;
         }
     }
     return YB_OK;
 }
 
-/* Flips until no edge is illegal. Each flip lowers the lifted surface, so this ends. */
+/* Flips until no edge is illegal: each is looked at from its first triangle alone. Each flip lowers
+ * the lifted surface, so this ends.
+ */
 void mesh_make_delaunay(yb_map_t *map, yb_load_t *load)
 {
     bool flipped = true;
@@ -372,7 +374,7 @@ void mesh_make_delaunay(yb_map_t *map, yb_load_t *load)
         flipped = false;
         for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
             for (int i = 0; i < 3; i++) {
-                if (illegal(map, load, t, i)) {
+                if (entry_of(load, t, i) > t && illegal(map, load, t, i)) {
                     flip(map, load, t, i);
                     flipped = true;
                 }
