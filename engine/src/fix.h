@@ -15,6 +15,19 @@ static inline int32_t fix_abs(int32_t a)
     return a < 0 ? -a : a;
 }
 
+/* a - b, of two plan coordinates: they are unsigned, and on a small processor an int has 16 bits.
+ */
+static inline int32_t fix_minus(uint16_t a, uint16_t b)
+{
+    return (int32_t)a - (int32_t)b;
+}
+
+/* Half way between two plan coordinates, rounded down. */
+static inline uint16_t fix_middle(uint16_t a, uint16_t b)
+{
+    return (uint16_t)(((uint32_t)a + b) >> 1);
+}
+
 static inline int32_t fix_min(int32_t a, int32_t b)
 {
     return a < b ? a : b;

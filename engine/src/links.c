@@ -133,10 +133,10 @@ static yb_status_t fan(const place_t *place, int line)
 static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
 {
     const yb_vertex_t *v = map->vertex;
-    int64_t abx = (v[b].x_q8 - v[a].x_q8) / 4;
-    int64_t aby = (v[b].y_q8 - v[a].y_q8) / 4;
-    int64_t apx = (v[p].x_q8 - v[a].x_q8) / 4;
-    int64_t apy = (v[p].y_q8 - v[a].y_q8) / 4;
+    int64_t abx = fix_minus(v[b].x_q8, v[a].x_q8) / 4;
+    int64_t aby = fix_minus(v[b].y_q8, v[a].y_q8) / 4;
+    int64_t apx = fix_minus(v[p].x_q8, v[a].x_q8) / 4;
+    int64_t apy = fix_minus(v[p].y_q8, v[a].y_q8) / 4;
     int64_t along = abx * apx + aby * apy;
     int64_t square = abx * abx + aby * aby;
     if (along <= 0)

@@ -20,10 +20,10 @@ void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry)
 
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
 {
-    int32_t abx = (b->x_q8 >> 2) - (a->x_q8 >> 2);
-    int32_t aby = (b->y_q8 >> 2) - (a->y_q8 >> 2);
-    int32_t acx = (c->x_q8 >> 2) - (a->x_q8 >> 2);
-    int32_t acy = (c->y_q8 >> 2) - (a->y_q8 >> 2);
+    int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;
+    int32_t aby = fix_minus(b->y_q8, a->y_q8) >> 2;
+    int32_t acx = fix_minus(c->x_q8, a->x_q8) >> 2;
+    int32_t acy = fix_minus(c->y_q8, a->y_q8) >> 2;
     return abx * acy - aby * acx;
 }
 
@@ -35,7 +35,7 @@ int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t 
 int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b)
 {
     const yb_vertex_t *v = map->vertex;
-    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
+    return fix_length(fix_minus(v[b].x_q8, v[a].x_q8), fix_minus(v[b].y_q8, v[a].y_q8));
 }
 
 yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v)

@@ -15,9 +15,7 @@
 
 #include "fix.h"
 
-enum {
-    UNKNOWN_HEIGHT = INT32_MIN
-};
+#define UNKNOWN_HEIGHT INT32_MIN
 
 /* An entry: a triangle, and the mark. Three make a word of load->across. */
 enum {

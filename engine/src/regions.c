@@ -43,7 +43,9 @@ yb_status_t regions_find(const yb_map_t *map, yb_load_t *load)
     load->region_count = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         yb_triangle_t parent = load->root[t];
-        load->region[t] = parent == t ? (yb_index_t)load->region_count++ : load->region[parent];
+        load->region[t] = load->region[parent];
+        if (parent == t)
+            load->region[t] = (yb_index_t)load->region_count++;
     }
     int lines = 0;
     for (int i = 0; i < load->contour_count; i++) {

@@ -176,8 +176,8 @@ static yb_status_t join(const level_t *level, const pair_t *pair, bool *joined)
     at = at < leaves + gap / 8 ? leaves + gap / 8 : at;
     at = at > enters - gap / 8 ? enters - gap / 8 : at;
     /* On the quarter-step lattice. */
-    int64_t x = a->x_q8 + (((b->x_q8 - a->x_q8) * at + 32768) >> 16);
-    int64_t y = a->y_q8 + (((b->y_q8 - a->y_q8) * at + 32768) >> 16);
+    int64_t x = a->x_q8 + ((fix_minus(b->x_q8, a->x_q8) * at + 32768) >> 16);
+    int64_t y = a->y_q8 + ((fix_minus(b->y_q8, a->y_q8) * at + 32768) >> 16);
     yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
     yb_triangle_t t = 0;
     int edge = -1;

@@ -40,8 +40,8 @@ static yb_status_t split_bridge(yb_map_t *map, yb_load_t *load, yb_triangle_t t,
     const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
     const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
     yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, (uint16_t)((a->x_q8 + b->x_q8) >> 1),
-                        (uint16_t)((a->y_q8 + b->y_q8) >> 1), a->z_q8) != YB_OK)
+    if (mesh_add_vertex(map, load, fix_middle(a->x_q8, b->x_q8), fix_middle(a->y_q8, b->y_q8),
+                        a->z_q8) != YB_OK)
         return YB_ERR_LIMIT;
     load->branch[m] = (yb_branch_t){.parent = parent, .other = other, .end = m};
     mesh_split(map, load, t, i, m);

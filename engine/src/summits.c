@@ -105,7 +105,8 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_index_
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
      * than enough; area / length is below 2^33, where a short line bounds much of the frame. */
     int64_t slope_q11 = round.change * 128 / round.outside;
-    slope_q11 = slope_q11 > 1 << 20 ? 1 << 20 : slope_q11;
+    const int32_t steepest_q11 = (int32_t)1 << 20;
+    slope_q11 = slope_q11 > steepest_q11 ? steepest_q11 : slope_q11;
     int64_t rise = (slope_q11 * (round.area * 8 / round.length)) >> 11;
     int32_t least = fix_max(interval >> 3, 1);
     int32_t most = fix_max(interval - (interval >> 3), 1);
@@ -130,8 +131,8 @@ static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
     const yb_vertex_t *a = &map->vertex[map->triangle[t][next3(i)]];
     const yb_vertex_t *b = &map->vertex[map->triangle[t][prev3(i)]];
     const yb_vertex_t *c = &map->vertex[map->triangle[t][i]];
-    return (int64_t)(a->x_q8 - c->x_q8) * (b->x_q8 - c->x_q8) +
-               (int64_t)(a->y_q8 - c->y_q8) * (b->y_q8 - c->y_q8) >
+    return (int64_t)fix_minus(a->x_q8, c->x_q8) * fix_minus(b->x_q8, c->x_q8) +
+               (int64_t)fix_minus(a->y_q8, c->y_q8) * fix_minus(b->y_q8, c->y_q8) >
            0;
 }
 
@@ -178,14 +179,14 @@ static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot
     const yb_vertex_t *a = &map->vertex[v[spot->edge]];
     const yb_vertex_t *b = &map->vertex[v[next3(spot->edge)]];
     const yb_vertex_t *c = &map->vertex[v[prev3(spot->edge)]];
-    int32_t x = (a->x_q8 + b->x_q8) >> 1;
-    int32_t y = (a->y_q8 + b->y_q8) >> 1;
+    uint16_t x = fix_middle(a->x_q8, b->x_q8);
+    uint16_t y = fix_middle(a->y_q8, b->y_q8);
     if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
-        x = (x + c->x_q8) >> 1;
-        y = (y + c->y_q8) >> 1;
+        x = fix_middle(x, c->x_q8);
+        y = fix_middle(y, c->y_q8);
     }
     yb_index_t p = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, (uint16_t)x, (uint16_t)y, z) != YB_OK)
+    if (mesh_add_vertex(map, load, x, y, z) != YB_OK)
         return YB_ERR_LIMIT;
     mesh_split(map, load, spot->t, spot->beyond ? -1 : spot->edge, p);
     mesh_legalise(map, load, p);

@@ -3,7 +3,7 @@
 #include "relief.h"
 #include "split.h"
 
-const uint8_t split_child[8][SPLIT_CHILDREN][3] = {
+const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
     {{SPLIT_END}},
     {{0, 3, 2}, {3, 1, 2}, {SPLIT_END}},
     {{1, 4, 0}, {4, 2, 0}, {SPLIT_END}},
@@ -36,11 +36,11 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
     for (int i = 0; i < 3; i++) {
         const yb_vertex_t *a = corner[i];
         const yb_vertex_t *b = corner[i == 2 ? 0 : i + 1];
-        int32_t dx = b->x_q8 - a->x_q8;
-        int32_t dy = b->y_q8 - a->y_q8;
+        int32_t dx = fix_minus(b->x_q8, a->x_q8);
+        int32_t dy = fix_minus(b->y_q8, a->y_q8);
         if (fix_length(dx, dy) > longest && relief_splits(dx, dy)) {
             relief_middle(map, a, b, &middle[i]);
-            pattern |= (uint8_t)(1 << i);
+            pattern = (uint8_t)(pattern | 1 << i);
         }
     }
     return pattern;
@@ -49,8 +49,10 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
 static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],
                  const uint8_t child[3], const yb_vertex_t *picked[3])
 {
-    for (int i = 0; i < 3; i++)
-        picked[i] = child[i] < 3 ? corner[child[i]] : &middle[child[i] - 3];
+    for (int i = 0; i < 3; i++) {
+        uint8_t k = yb_rom_u8(&child[i]);
+        picked[i] = k < 3 ? corner[k] : &middle[k - 3];
+    }
 }
 
 void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
@@ -67,7 +69,7 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
             fn(context, level->corner[0], level->corner[1], level->corner[2]);
         /* Up to the next level that has a child left, and down into it. */
         const uint8_t *child = split_child[level->pattern][0];
-        while (level->child == SPLIT_CHILDREN || *child == SPLIT_END) {
+        while (level->child == SPLIT_CHILDREN || yb_rom_u8(child) == SPLIT_END) {
             if (level == levels)
                 return;
             level--;
@@ -81,8 +83,8 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
 /* Twice the signed area of the plan triangle a, b, (x, y): below 2^33. */
 static int64_t side(const yb_vertex_t *a, const yb_vertex_t *b, int32_t x, int32_t y)
 {
-    return (int64_t)(b->x_q8 - a->x_q8) * (y - a->y_q8) -
-           (int64_t)(b->y_q8 - a->y_q8) * (x - a->x_q8);
+    return (int64_t)fix_minus(b->x_q8, a->x_q8) * (y - a->y_q8) -
+           (int64_t)fix_minus(b->y_q8, a->y_q8) * (x - a->x_q8);
 }
 
 static bool holds(const yb_vertex_t *const p[3], int32_t x, int32_t y)

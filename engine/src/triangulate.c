@@ -66,8 +66,8 @@ static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_
     int32_t x[3];
     int32_t y[3];
     for (int i = 0; i < 3; i++) {
-        x[i] = (map->vertex[corner[i]].x_q8 >> 2) - (o->x_q8 >> 2);
-        y[i] = (map->vertex[corner[i]].y_q8 >> 2) - (o->y_q8 >> 2);
+        x[i] = fix_minus(map->vertex[corner[i]].x_q8, o->x_q8) >> 2;
+        y[i] = fix_minus(map->vertex[corner[i]].y_q8, o->y_q8) >> 2;
     }
     int64_t sum = 0;
     for (int i = 0; i < 3; i++) {
