@@ -53,6 +53,9 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
     return dx > dy ? dx + (3 * dy >> 3) : dy + (3 * dx >> 3);
 }
 
+/* a * b / c, rounded towards zero; c is not 0 and the result fits. */
+int32_t fix_scale(int32_t a, int32_t b, int32_t c);
+
 /* Position of the highest set bit; a > 0. */
 static inline int fix_log2_floor(uint32_t a)
 {

@@ -11,6 +11,22 @@ enum {
     MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
+int32_t height_of(const place_t *place, int contour)
+{
+    return first_of(place, contour)->z_q8;
+}
+
+bool bounds(const place_t *place, int contour)
+{
+    const yb_contour_t *c = &place->load->contour[contour];
+    return is_line(c) && (c->left == place->region || c->right == place->region);
+}
+
+bool bounds_at(const place_t *place, int contour, int32_t h)
+{
+    return bounds(place, contour) && height_of(place, contour) == h;
+}
+
 /* Finds for every other region which line of this one leads to it. */
 static void look_beyond(const place_t *place)
 {
@@ -61,22 +77,22 @@ static int ruler_of(const place_t *place, yb_index_t p, int line)
     const yb_load_t *load = place->load;
     int32_t z = place->map->vertex[p].z_q8;
     int ruler = -1;
-    int64_t rise = 0;
-    int64_t run = 1;
+    int32_t rise = 0;
+    int32_t run = 1;
     for (int s = 0; s < all_contours(load); s++) {
         const yb_contour_t *spot = &load->contour[s];
-        int32_t top = first_of(place, s)->z_q8;
+        int32_t top = height_of(place, s);
         if (is_line(spot) || (line < 0) != (spot->left == place->region))
             continue;
         if (line >= 0) {
             int before = line_before(place, s);
-            int32_t h = before == NOWHERE ? z : first_of(place, before)->z_q8;
+            int32_t h = before == NOWHERE ? z : height_of(place, before);
             if (before == line || h == z || top == h || (h > z) != (top > h))
                 continue;
         }
-        int64_t up = fix_abs(top - z);
-        int64_t along = edge_length(place->map, p, spot->first);
-        if (up * run > rise * along) {
+        int32_t up = fix_abs(top - z);
+        int32_t along = edge_length(place->map, p, spot->first);
+        if ((int64_t)up * run > (int64_t)rise * along) {
             ruler = s;
             rise = up;
             run = along;
@@ -129,22 +145,23 @@ static yb_status_t fan(const place_t *place, int line)
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ------------------------------------------------- */
 
-/* Distance of point p from the segment ab, in 1/64 steps. */
+/* Distance of point p from the segment ab, in 1/64 steps. Plan differences are below 2^14: squares
+ * of lengths are below 2^29.
+ */
 static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
 {
     const yb_vertex_t *v = map->vertex;
-    int64_t abx = fix_minus(v[b].x_q8, v[a].x_q8) / 4;
-    int64_t aby = fix_minus(v[b].y_q8, v[a].y_q8) / 4;
-    int64_t apx = fix_minus(v[p].x_q8, v[a].x_q8) / 4;
-    int64_t apy = fix_minus(v[p].y_q8, v[a].y_q8) / 4;
-    int64_t along = abx * apx + aby * apy;
-    int64_t square = abx * abx + aby * aby;
+    int32_t abx = fix_minus(v[b].x_q8, v[a].x_q8) >> 2;
+    int32_t aby = fix_minus(v[b].y_q8, v[a].y_q8) >> 2;
+    int32_t apx = fix_minus(v[p].x_q8, v[a].x_q8) >> 2;
+    int32_t apy = fix_minus(v[p].y_q8, v[a].y_q8) >> 2;
+    int32_t along = abx * apx + aby * apy;
+    int32_t square = abx * abx + aby * aby;
     if (along <= 0)
-        return fix_length((int32_t)apx, (int32_t)apy);
+        return fix_length(apx, apy);
     if (along >= square)
-        return fix_length((int32_t)(apx - abx), (int32_t)(apy - aby));
-    int32_t off = orientation(map, a, b, p);
-    return (int32_t)(fix_abs(off) / (int32_t)(fix_sqrt((uint64_t)square)));
+        return fix_length(apx - abx, apy - aby);
+    return fix_abs(orientation(map, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
 }
 
 /* The nearest way from p to the region's lines of height h. */
@@ -153,7 +170,7 @@ static int32_t shortest_way(const place_t *place, yb_index_t p, int32_t h)
     const yb_load_t *load = place->load;
     int32_t shortest = INT32_MAX;
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+        if (!bounds_at(place, c, h))
             continue;
         for (int k = 0; k < load->contour[c].count; k++)
             shortest = fix_min(
@@ -177,7 +194,7 @@ static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int
     const yb_load_t *load = place->load;
     near_t nearest = {INT32_MAX, -1};
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+        if (!bounds_at(place, c, h))
             continue;
         for (int k = 0; k < load->contour[c].count; k++) {
             yb_index_t q = (yb_index_t)(load->contour[c].first + k);
@@ -202,7 +219,7 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
     if (s < 0)
         return YB_OK;
     yb_index_t peak = load->contour[s].first;
-    int32_t h = first_of(place, line_before(place, s))->z_q8;
+    int32_t h = height_of(place, line_before(place, s));
     int32_t far = shortest_way(place, p, h);
     far += far >> 2;
     near_t near = {-1, -1};
@@ -216,14 +233,16 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
     return YB_OK;
 }
 
-/* Twice the area that a closed line goes round counter-clockwise. */
+/* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
+ * may wrap.
+ */
 static bool turns_left(const yb_map_t *map, const yb_contour_t *line)
 {
-    int64_t area = 0;
+    uint32_t area = 0;
     for (int k = 1; k + 1 < line->count; k++)
-        area += orientation(map, line->first, (yb_index_t)(line->first + k),
-                            (yb_index_t)(line->first + k + 1));
-    return area > 0;
+        area += (uint32_t)orientation(map, line->first, (yb_index_t)(line->first + k),
+                                      (yb_index_t)(line->first + k + 1));
+    return (int32_t)area > 0;
 }
 
 /* Does the line lie round the region, or does it go from frame to frame? */

@@ -55,10 +55,12 @@ static inline bool is_marked(const yb_load_t *load, yb_triangle_t t, int edge)
 /* Which corner of triangle t vertex v is; v is one of them. */
 int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
 
-static inline bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
-{
-    return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
-}
+/* The corner of triangle t that comes after (before) its corner v, counter-clockwise. */
+yb_index_t corner_after(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+
+yb_index_t corner_before(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+
+bool on_frame(const yb_map_t *map, const yb_vertex_t *v);
 
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
@@ -129,15 +131,13 @@ yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle
 yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
                      int *corner);
 
-/* An edge, in an order that does not depend on how the mesh is written down. */
-typedef struct {
-    yb_index_t low, high; /* its ends' numbers */
-    yb_triangle_t t;      /* of this triangle … */
-    int edge;             /* … this edge */
-} mesh_edge_t;
+/* The vertex opposite edge i of t on its other side; the edge is not on the frame. */
+yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i);
 
-mesh_edge_t mesh_edge_at(const yb_map_t *map, yb_triangle_t t, int i);
-bool mesh_edge_before(const mesh_edge_t *a, const mesh_edge_t *b);
+/* Edge i of t as a number, the lower end's times 65536 and the higher end's: an order that does not
+ * depend on how the mesh is written down.
+ */
+uint32_t mesh_edge_key(const yb_map_t *map, yb_triangle_t t, int i);
 
 /* Do all corners lie at one height? */
 bool is_flat(const yb_map_t *map, yb_triangle_t t);

@@ -19,7 +19,7 @@ static yb_triangle_t root_of(yb_load_t *load, yb_triangle_t t)
 static yb_index_t left_of(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b)
 {
     yb_triangle_t t = first_at(map, load, a);
-    while (map->triangle[t][next3(corner_of(map, t, a))] != b)
+    while (corner_after(map, t, a) != b)
         t = turn_left(map, load, t, a);
     return load->region[t];
 }

@@ -50,15 +50,17 @@ static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, int3
 }
 
 /* What a flat region is like, and the ground that its lines look at on their outer sides. Lengths
- * are in 1/256 step, areas twice as large in square 1/64 steps: below 2^30 all together.
+ * are in 1/256 step: lines that do not cross, on a lattice of 1/16 step, stay below 2^30 all
+ * together. Areas are twice as large, in square 1/64 steps: the frame's is below 2^29, and no
+ * triangle is counted more than three times.
  */
 typedef struct {
-    int64_t area;
-    int64_t length;  /* of its lines */
-    int64_t sloping; /* of those of their segments beyond which there is another height */
+    int32_t area;
+    int32_t length;  /* of its lines */
+    int32_t sloping; /* of those of their segments beyond which there is another height */
+    int32_t outside; /* area of the triangles beyond those segments */
     int64_t rise;    /* sum of length times rise towards the region: below 2^17 · 2^18 · 2^16 */
     int64_t change;  /* the same without signs */
-    int64_t outside; /* area of the triangles beyond those segments */
 } surroundings_t;
 
 static void look_round(const yb_map_t *map, const yb_load_t *load, yb_index_t region,
@@ -76,13 +78,14 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_index_t re
             int apex = 0;
             const yb_index_t *w = map->triangle[across(map, load, t, i, &apex)];
             int32_t up = map->vertex[v[i]].z_q8 - map->vertex[w[apex]].z_q8;
-            int64_t length = edge_length(map, v[i], v[next3(i)]);
+            int32_t length = edge_length(map, v[i], v[next3(i)]);
             found->length += length;
             if (up == 0)
                 continue;
+            int64_t rise = (int64_t)length * up;
             found->sloping += length;
-            found->rise += length * up;
-            found->change += length * fix_abs(up);
+            found->rise += rise;
+            found->change += rise < 0 ? -rise : rise;
             found->outside += orientation(map, w[0], w[1], w[2]);
         }
     }
@@ -103,11 +106,11 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_index_
     }
     int32_t interval = (int32_t)(round.change / round.sloping);
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
-     * than enough; area / length is below 2^33, where a short line bounds much of the frame. */
+     * than enough; area / length is below 2^32, where a short line bounds much of the frame. */
     int64_t slope_q11 = round.change * 128 / round.outside;
     const int32_t steepest_q11 = (int32_t)1 << 20;
     slope_q11 = slope_q11 > steepest_q11 ? steepest_q11 : slope_q11;
-    int64_t rise = (slope_q11 * (round.area * 8 / round.length)) >> 11;
+    int64_t rise = (slope_q11 * ((uint32_t)round.area * 8 / (uint32_t)round.length)) >> 11;
     int32_t least = fix_max(interval >> 3, 1);
     int32_t most = fix_max(interval - (interval >> 3), 1);
     rise = rise < least ? least : rise > most ? most : rise;
@@ -125,14 +128,16 @@ typedef struct {
     bool beyond;
 } spot_t;
 
-/* Is the angle at corner i acute? Plan differences are below 2^16: each product below 2^32. */
+/* Is the angle at corner i acute? Plan differences in 1/64 steps are below 2^14: each product below
+ * 2^28.
+ */
 static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
 {
     const yb_vertex_t *a = &map->vertex[map->triangle[t][next3(i)]];
     const yb_vertex_t *b = &map->vertex[map->triangle[t][prev3(i)]];
     const yb_vertex_t *c = &map->vertex[map->triangle[t][i]];
-    return (int64_t)fix_minus(a->x_q8, c->x_q8) * fix_minus(b->x_q8, c->x_q8) +
-               (int64_t)fix_minus(a->y_q8, c->y_q8) * fix_minus(b->y_q8, c->y_q8) >
+    return (fix_minus(a->x_q8, c->x_q8) >> 2) * (fix_minus(b->x_q8, c->x_q8) >> 2) +
+               (fix_minus(a->y_q8, c->y_q8) >> 2) * (fix_minus(b->y_q8, c->y_q8) >> 2) >
            0;
 }
 
@@ -143,19 +148,18 @@ static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
 static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_index_t region)
 {
     spot_t spot = {.beyond = true};
-    mesh_edge_t best = {0};
+    uint32_t best = 0;
     int32_t widest = -1;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3 && load->region[t] == region; i++) {
             bool alone = entry_of(load, t, i) >= NO_TRIANGLE;
             if (alone && !spot.beyond)
                 continue; /* there is a better kind of edge */
-            mesh_edge_t edge = mesh_edge_at(map, t, i);
-            int32_t wide = edge_length(map, edge.low, edge.high);
-            if (alone != spot.beyond || wide > widest ||
-                (wide == widest && mesh_edge_before(&edge, &best))) {
+            uint32_t key = mesh_edge_key(map, t, i);
+            int32_t wide = edge_length(map, map->triangle[t][i], map->triangle[t][next3(i)]);
+            if (alone != spot.beyond || wide > widest || (wide == widest && key < best)) {
                 spot = (spot_t){t, i, alone};
-                best = edge;
+                best = key;
                 widest = wide;
             }
         }

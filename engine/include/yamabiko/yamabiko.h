@@ -159,12 +159,12 @@ typedef struct {
     uint8_t hurst_q8m1;      /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
     bool smooth;             /* midpoints follow the slopes of the ends */
     bool detail;             /* midpoints move by noise; clear it to get the smooth part alone */
+    yb_vertex_t vertex[YB_MAX_VERTICES];
+    yb_index_t triangle[YB_MAX_TRIANGLES][3];
     /* Per length class: the noise's scale (q8 height for one unit of the hash sum is scale/2^9),
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
-    yb_vertex_t vertex[YB_MAX_VERTICES];
-    yb_index_t triangle[YB_MAX_TRIANGLES][3];
 } yb_map_t;
 
 /* One contour of a code, as decoded. */
@@ -280,8 +280,8 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
 /* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
- * Cost: a hundred-byte code takes about 0.6 M instructions on a Cortex-M3, 251 scattered summits
- * 3.3 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * Cost: a hundred-byte code takes about 1.8 M instructions on a Cortex-M3, 251 scattered summits
+ * 3.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);
