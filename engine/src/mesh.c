@@ -67,7 +67,7 @@ yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
 {
     yb_triangle_t t = load->star[v];
     if (!on_frame(map, &map->vertex[v]))
-        return t;
+        return turn_left(map, load, t, v); /* the one that a whole turn to the right would end at */
     for (;;) {
         yb_triangle_t before = turn_right(map, load, t, v);
         if (before == NO_TRIANGLE)
