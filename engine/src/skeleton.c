@@ -131,10 +131,7 @@ static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         int at = corner_of(map, t, v);
         for (int k = 0; k < 2; k++, at = prev3(at)) {
-            bridge_t bridge;
-            bridge.t = t;
-            bridge.edge = at;
-            bridge.key = mesh_edge_key(map, t, at);
+            bridge_t bridge = {t, at, mesh_edge_key(map, t, at), v, v};
             if (bridge.key >> 16 == v && bridge.key < next->key && is_bridge(map, load, t, at) &&
                 begins_branch(map, load, &bridge))
                 *next = bridge;
