@@ -37,7 +37,7 @@ static uint32_t way_of(const yb_map_t *map, const yb_vertex_t *v)
 /* The height at an unknown corner: between the nearest known heights along the frame, both ways. */
 static int32_t interpolate(const yb_map_t *map, const yb_load_t *load, yb_index_t corner)
 {
-    uint32_t round = 2u * map->east_q8 + 2u * map->north_q8;
+    uint32_t round = 2 * ((uint32_t)map->east_q8 + map->north_q8);
     uint32_t way = way_of(map, &map->vertex[corner]);
     uint32_t ahead = round;
     uint32_t behind = round;

@@ -3,11 +3,12 @@
 #include "fix.h"
 #include "relief.h"
 
+#define FAR_Q8 ((int32_t)4096 * 256) /* positions are clamped to this */
+#define MOST_FOCAL_Q4 65528
+
 enum {
-    FAR_Q8 = 4096 * 256, /* positions are clamped to this */
-    NEAREST_Q8 = 128,    /* half a step: never draw nearer */
+    NEAREST_Q8 = 128, /* half a step: never draw nearer */
     LEAST_ZOOM_Q12 = 1024,
-    MOST_FOCAL_Q4 = 65528,
     LEAST_SPLIT_Q4 = 16,
     MOST_SPLIT_Q4 = 16383
 };
@@ -73,13 +74,13 @@ static void find_pose(const yb_view_t *view, pose_t *pose)
     pose->sin_b = -yb_cos_q14(view->azimuth_bam);
     pose->cos_b = -yb_sin_q14(view->azimuth_bam);
     if (flat > 0) {
-        pose->sin_b = (int32_t)(dy * (1 << 21) / (int64_t)flat);
-        pose->cos_b = (int32_t)(dx * (1 << 21) / (int64_t)flat);
+        pose->sin_b = (int32_t)(dy * ((int32_t)1 << 21) / (int64_t)flat);
+        pose->cos_b = (int32_t)(dx * ((int32_t)1 << 21) / (int64_t)flat);
     }
     pose->sin_a = 0;
     pose->cos_a = 1 << 14;
     if (whole > 0) {
-        pose->sin_a = (int32_t)(dz * (1 << 21) / (int64_t)whole);
+        pose->sin_a = (int32_t)(dz * ((int32_t)1 << 21) / (int64_t)whole);
         pose->cos_a = (int32_t)((int64_t)(flat << 14) / (int64_t)whole);
     }
 }
@@ -94,7 +95,7 @@ static void clamp_view(yb_view_t *view, const yb_screen_t *screen)
     /* The picture must stay within the pyramid of slope 2 that camera_project tests against. */
     int32_t least = LEAST_ZOOM_Q12;
     if (screen->height > screen->width)
-        least = LEAST_ZOOM_Q12 * screen->height / screen->width;
+        least = (int32_t)LEAST_ZOOM_Q12 * screen->height / screen->width;
     view->zoom_q12 = (uint16_t)fix_clamp(view->zoom_q12, fix_min(least, 65535), 65535);
     view->exaggerate_q8 = (uint16_t)fix_min(view->exaggerate_q8, 8 * 256);
     if (view->water_q8 != YB_NO_WATER)
@@ -200,7 +201,7 @@ void camera_project(const yb_frame_t *frame, const camera_point_t *place, raster
      * right / d * 2^29 within 2^30 + 2^16 however d was rounded, and x within 2^15 + 2: times
      * MOST_FOCAL_Q4 that is below 2^31. */
     int shift = fix_log2_floor((uint32_t)place->depth_q8) - 14;
-    int32_t inverse = (1 << 29) / shifted(place->depth_q8, shift);
+    int32_t inverse = ((int32_t)1 << 29) / shifted(place->depth_q8, shift);
     int32_t x = (shifted(place->right_q8, shift) * inverse) >> 15; /* Q14, within 2^15 */
     int32_t y = (shifted(place->up_q8, shift) * inverse) >> 15;
     screen->x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);

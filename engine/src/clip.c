@@ -39,7 +39,7 @@ static int64_t inside_of(const yb_frame_t *frame, const camera_point_t *p, int p
 static void cut(const camera_point_t *p, const camera_point_t *q, int64_t from, int64_t to,
                 camera_point_t *at)
 {
-    int64_t part_q20 = from * (1 << 20) / (from - to);
+    int64_t part_q20 = from * ((int32_t)1 << 20) / (from - to);
     at->right_q8 = p->right_q8 + (int32_t)(((int64_t)(q->right_q8 - p->right_q8) * part_q20) >> 20);
     at->up_q8 = p->up_q8 + (int32_t)(((int64_t)(q->up_q8 - p->up_q8) * part_q20) >> 20);
     at->depth_q8 = p->depth_q8 + (int32_t)(((int64_t)(q->depth_q8 - p->depth_q8) * part_q20) >> 20);

@@ -115,7 +115,7 @@ static yb_status_t take_tail(yb_map_t *map, yb_load_t *load, uint8_t byte)
             begin_section(load, byte & 15);
         return YB_MORE;
     case SECTION_SIZE_HIGH:
-        load->section_size = (uint16_t)(byte << 8);
+        load->section_size = (uint16_t)((unsigned)byte << 8);
         load->part = SECTION_SIZE_LOW;
         return YB_MORE;
     case SECTION_SIZE_LOW:

@@ -63,7 +63,7 @@ enum field {
  */
 static const struct {
     uint8_t element, argument;
-} question[] = {
+} question[] YB_ROM = {
     [CELL_EXPONENT] = {UNIFORM, 15},
     [CELL_MANTISSA] = {UNIFORM, 255},
     [SPACING] = {UNIFORM, 15},
@@ -108,8 +108,8 @@ static const struct {
 static void ask(yb_load_t *load, int field)
 {
     load->state = (uint8_t)field;
-    load->element = question[field].element;
-    load->at = (uint16_t)(load->at + question[field].argument);
+    load->element = yb_rom_u8(&question[field].element);
+    load->at = (uint16_t)(load->at + yb_rom_u8(&question[field].argument));
     load->value = load->element == TURN ? 1 : 0;
     load->classes = 0;
     load->left = 0;
@@ -143,12 +143,12 @@ static uint16_t decide_uniform(yb_load_t *load, uint32_t count)
 static bool decide_number(yb_load_t *load)
 {
     if (load->left == 0) {
-        int model = load->at + fix_min(load->classes, NUMBER_MODELS - 1);
+        int model = load->at + (int)fix_min(load->classes, NUMBER_MODELS - 1);
         if (load->classes < MOST_CLASS && decide(load, model) != 0) {
             load->classes++;
             return false;
         }
-        load->left = load->classes + 1u;
+        load->left = (uint8_t)(load->classes + 1);
         load->value = 1;
     } else {
         load->value = (uint16_t)(load->value << 1 | decide_uniform(load, 2));
@@ -189,15 +189,21 @@ static uint8_t gain_of(int coded)
     return (uint8_t)(coded == 0 ? 0 : (coded & 1 ? 181 : 128) >> (7 - coded / 2));
 }
 
+/* A line of the lattice as a plan coordinate: 255 steps at most. */
+static uint16_t place_q8(const yb_load_t *load, int line)
+{
+    return (uint16_t)((uint32_t)(line * load->spacing) << 8);
+}
+
 static int take_vertices(yb_map_t *map, yb_load_t *load, int value)
 {
-    uint32_t vertices = value < 8 ? 32u * ((uint32_t)value + 1) : 512u << (value - 8);
+    uint32_t vertices = value < 8 ? 32 * ((uint32_t)value + 1) : (uint32_t)512 << (value - 8);
     vertices -= (value & 7) == 7 ? 1 : 0; /* 255 and 65535: what an index can count */
     if (vertices > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
     load->vertices_promised = (uint16_t)vertices;
-    map->east_q8 = (uint16_t)(load->columns * load->spacing << 8);
-    map->north_q8 = (uint16_t)(load->rows * load->spacing << 8);
+    map->east_q8 = place_q8(load, load->columns);
+    map->north_q8 = place_q8(load, load->rows);
     load->start_x = load->columns / 2;
     load->start_y = load->rows / 2;
     return LINE_COUNT;
@@ -227,7 +233,7 @@ static int take_header(yb_map_t *map, yb_load_t *load, int value)
         *(load->narrow ? &load->columns : &load->rows) = (uint8_t)(value + 1);
         return UNIT_EXPONENT;
     case UNIT_EXPONENT:
-        map->unit = (uint16_t)(value << 12);
+        map->unit = (uint16_t)((unsigned)value << 12);
         return UNIT_MANTISSA;
     case UNIT_MANTISSA:
         map->unit = (uint16_t)(map->unit | 16 | value);
@@ -260,9 +266,7 @@ static int take_header(yb_map_t *map, yb_load_t *load, int value)
 /* --- Points --------------------------------------------------------------------------------- */
 
 /* Heights farther from the base, in units, are too high in every unit. */
-enum {
-    MOST_UNITS = 1 << 29
-};
+#define MOST_UNITS ((int32_t)1 << 29)
 
 static bool outside(const yb_load_t *load, int x, int y)
 {
@@ -277,8 +281,8 @@ static bool add_point(yb_map_t *map, yb_load_t *load, int32_t units)
     if (load->point_count >= load->vertices_promised || outside(load, load->x, load->y))
         return false;
     yb_vertex_t *point = &map->vertex[load->point_count];
-    point->x_q8 = (uint16_t)(load->x * load->spacing << 8);
-    point->y_q8 = (uint16_t)(load->y * load->spacing << 8);
+    point->x_q8 = place_q8(load, load->x);
+    point->y_q8 = place_q8(load, load->y);
     point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
     load->point_count++;
     return true;
@@ -303,8 +307,8 @@ static int32_t height_near(const yb_map_t *map, const yb_load_t *load)
     int32_t units = 0;
     for (int i = 0; i < load->point_count; i++) {
         const yb_vertex_t *v = &map->vertex[i];
-        int32_t dx = (v->x_q8 >> 8) - load->x * load->spacing;
-        int32_t dy = (v->y_q8 >> 8) - load->y * load->spacing;
+        int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
+        int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
         int32_t d = dx * dx + dy * dy;
         if (d < nearest) {
             nearest = d;
@@ -356,12 +360,12 @@ static int signed_of(int value)
 static int take_way(yb_load_t *load, int way)
 {
     int half = load->columns + load->rows;
-    way = (load->way + way) % (2 * half);
+    way = (load->start_way + way) % (2 * half);
     way = way < 0 ? way + 2 * half : way;
-    load->way = (int16_t)way;
+    load->start_way = (int16_t)way;
     bool far = way >= half;
     way -= far ? half : 0;
-    int x = fix_min(way, load->columns);
+    int x = (int)fix_min(way, load->columns);
     int y = way - x;
     load->last = (yb_ring_t){1, (int16_t)(((way < load->columns ? 2 : 4) + (far ? 4 : 0)) & 7)};
     load->x = (int16_t)(far ? load->columns - x : x);
@@ -404,7 +408,7 @@ static int take_place(yb_map_t *map, yb_load_t *load, int rest)
                                                                   : next_step(load);
     if (contour->count < 3)
         return next_step(load);
-    int away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));
+    int32_t away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));
     load->at = away <= 2 * n ? 1 : 0;
     return END_OF_LINE;
 }
@@ -447,7 +451,7 @@ static int take_line(yb_map_t *map, yb_load_t *load, int value)
 
 static uint32_t inner_places(const yb_load_t *load)
 {
-    return (uint32_t)((load->columns - 1) * (load->rows - 1));
+    return (uint32_t)(load->columns - 1) * (uint32_t)(load->rows - 1);
 }
 
 /* Spot heights lie in the inner lattice points' order, row by row. The gap to the next one is
@@ -528,7 +532,8 @@ static int take_height(yb_map_t *map, yb_load_t *load, int value)
         load->height = (int16_t)-load->height;
     }
     bool of_line = state <= LINE_DOWN;
-    int32_t units = height_near(map, load) + load->height * (1 << (of_line ? load->interval : 0));
+    int32_t units =
+        height_near(map, load) + (int32_t)load->height * (1 << (of_line ? load->interval : 0));
     if (state >= CORNER_HEIGHT && state <= CORNER_DOWN)
         return take_corner_height(load, units);
     if (!begin_contour(map, load, units))
@@ -558,10 +563,10 @@ static bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *he
 static yb_status_t end_relief(yb_map_t *map, yb_load_t *load)
 {
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
-    int64_t base_64th_m = (int64_t)load->base * yb_unit_64th_m(map->unit) + (1 << 21);
-    bool good = base_64th_m >= 0 && base_64th_m < 1 << 22;
+    int64_t base_64th_m = (int64_t)load->base * yb_unit_64th_m(map->unit) + ((int32_t)1 << 21);
+    bool good = base_64th_m >= 0 && base_64th_m < (int32_t)1 << 22;
     uint32_t rest = (uint32_t)base_64th_m & 63;
-    map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - (1 << 15));
+    map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - 32768);
     map->seed = load->recent >> 8 & 127;
     good = good && settle_height(map, rest, &load->frame_height);
     for (int i = 0; i < 4 && good; i++)

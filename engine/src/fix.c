@@ -1,21 +1,22 @@
 #include "fix.h"
 
+#include <yamabiko/rom.h>
 #include <yamabiko/yamabiko.h>
 
 /* round(2048 log2(1 + i/32)) */
-static const uint16_t log_table[33] = {0,    91,   179,  265,  348,  429,  508,  585,  659,
-                                       732,  803,  873,  941,  1007, 1072, 1136, 1198, 1259,
-                                       1319, 1377, 1435, 1491, 1546, 1600, 1653, 1706, 1757,
-                                       1808, 1857, 1906, 1954, 2001, 2048};
+static const uint16_t log_table[33] YB_ROM = {0,    91,   179,  265,  348,  429,  508,  585,  659,
+                                              732,  803,  873,  941,  1007, 1072, 1136, 1198, 1259,
+                                              1319, 1377, 1435, 1491, 1546, 1600, 1653, 1706, 1757,
+                                              1808, 1857, 1906, 1954, 2001, 2048};
 
 /* round(32768 (2^(i/32) - 1)) */
-static const uint16_t exp_table[33] = {
+static const uint16_t exp_table[33] YB_ROM = {
     0,     718,   1451,  2200,  2966,  3748,  4548,  5365,  6200,  7053,  7925,
     8816,  9727,  10657, 11608, 12580, 13573, 14588, 15625, 16684, 17767, 18874,
     20005, 21160, 22341, 23548, 24781, 26041, 27329, 28645, 29989, 31364, 32768};
 
 /* round(16384 sin(i/64 of a right angle)) */
-static const uint16_t sine_table[65] = {
+static const uint16_t sine_table[65] YB_ROM = {
     0,     402,   804,   1205,  1606,  2006,  2404,  2801,  3196,  3590,  3981,  4370,  4756,
     5139,  5520,  5897,  6270,  6639,  7005,  7366,  7723,  8076,  8423,  8765,  9102,  9434,
     9760,  10080, 10394, 10702, 11003, 11297, 11585, 11866, 12140, 12406, 12665, 12916, 13160,
@@ -36,27 +37,34 @@ int32_t fix_log2_q11(uint64_t a)
     uint32_t fraction = (low << (31 - top)) >> 15 & 0xffff;
     uint32_t i = fraction >> 11;
     uint32_t rest = fraction & 0x7ff;
-    uint32_t step = (uint32_t)log_table[i + 1] - log_table[i];
-    return (exponent + top) * 2048 + log_table[i] + (int32_t)((step * rest + 1024) >> 11);
+    uint32_t first = yb_rom_u16(&log_table[i]);
+    uint32_t step = yb_rom_u16(&log_table[i + 1]) - first;
+    return (int32_t)(exponent + top) * 2048 + (int32_t)(first + ((step * rest + 1024) >> 11));
 }
 
 uint32_t fix_exp2_q11(int32_t e_q11)
 {
-    int32_t exponent = e_q11 >> 11;
+    int exponent = (int)(e_q11 >> 11);
     if (exponent >= 32)
         return UINT32_MAX;
     if (exponent < -1)
         return 0;
     uint32_t i = (uint32_t)e_q11 >> 6 & 31;
     uint32_t rest = (uint32_t)e_q11 & 63;
-    uint32_t step = (uint32_t)exp_table[i + 1] - exp_table[i];
-    uint32_t mantissa = 32768 + exp_table[i] + ((step * rest + 32) >> 6); /* Q15, 1 .. 2 */
+    uint32_t first = yb_rom_u16(&exp_table[i]);
+    uint32_t step = yb_rom_u16(&exp_table[i + 1]) - first;
+    uint32_t mantissa = 32768 + first + ((step * rest + 32) >> 6); /* Q15, 1 .. 2 */
     if (exponent >= 15) {
         /* The last step of the table may round up to 2.0, one bit too many at the very top. */
         return mantissa >> 16 != 0 && exponent == 31 ? UINT32_MAX : mantissa << (exponent - 15);
     }
     int shift = 15 - exponent; /* 1 .. 16 */
     return (mantissa + (1u << (shift - 1))) >> shift;
+}
+
+int32_t fix_scale(int32_t a, int32_t b, int32_t c)
+{
+    return (int32_t)((int64_t)a * b / c);
 }
 
 uint32_t fix_sqrt(uint64_t a)
@@ -82,10 +90,11 @@ int16_t yb_sin_q14(uint16_t angle_bam)
     if ((angle_bam & 0x4000) != 0)
         quarter = 0x4000 - quarter;
     uint32_t i = quarter >> 8;
-    int32_t value = sine_table[i];
-    if (i < 64)
-        value +=
-            ((int32_t)(sine_table[i + 1] - sine_table[i]) * (int32_t)(quarter & 255) + 128) >> 8;
+    int32_t value = yb_rom_u16(&sine_table[i]);
+    if (i < 64) {
+        int32_t step = yb_rom_u16(&sine_table[i + 1]) - value;
+        value += (step * (int32_t)(quarter & 255) + 128) >> 8;
+    }
     return (int16_t)((angle_bam & 0x8000) != 0 ? -value : value);
 }
 

@@ -15,6 +15,19 @@ static inline int32_t fix_abs(int32_t a)
     return a < 0 ? -a : a;
 }
 
+/* a - b, of two plan coordinates: they are unsigned, and on a small processor an int has 16 bits.
+ */
+static inline int32_t fix_minus(uint16_t a, uint16_t b)
+{
+    return (int32_t)a - (int32_t)b;
+}
+
+/* Half way between two plan coordinates, rounded down. */
+static inline uint16_t fix_middle(uint16_t a, uint16_t b)
+{
+    return (uint16_t)(((uint32_t)a + b) >> 1);
+}
+
 static inline int32_t fix_min(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -39,6 +52,9 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
     dy = fix_abs(dy);
     return dx > dy ? dx + (3 * dy >> 3) : dy + (3 * dx >> 3);
 }
+
+/* a * b / c, rounded towards zero; c is not 0 and the result fits. */
+int32_t fix_scale(int32_t a, int32_t b, int32_t c);
 
 /* Position of the highest set bit; a > 0. */
 static inline int fix_log2_floor(uint32_t a)

@@ -11,16 +11,32 @@ enum {
     MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
+int32_t height_of(const place_t *place, int contour)
+{
+    return first_of(place, contour)->z_q8;
+}
+
+bool bounds(const place_t *place, int contour)
+{
+    const yb_contour_t *c = &place->load->contour[contour];
+    return is_line(c) && (c->left == place->region || c->right == place->region);
+}
+
+bool bounds_at(const place_t *place, int contour, int32_t h)
+{
+    return bounds(place, contour) && height_of(place, contour) == h;
+}
+
 /* Finds for every other region which line of this one leads to it. */
 static void look_beyond(const place_t *place)
 {
     yb_load_t *load = place->load;
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] = NOWHERE;
+        load->way_to[r] = NOWHERE;
     for (int c = 0; c < load->contour_count; c++) {
         if (bounds(place, c)) {
             const yb_contour_t *line = &load->contour[c];
-            load->scratch[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
+            load->way_to[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
         }
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
@@ -32,11 +48,11 @@ static void look_beyond(const place_t *place)
             const yb_contour_t *line = &load->contour[c];
             if (!is_line(line) || bounds(place, c))
                 continue;
-            yb_index_t l = load->scratch[line->left];
-            yb_index_t r = load->scratch[line->right];
+            yb_index_t l = load->way_to[line->left];
+            yb_index_t r = load->way_to[line->right];
             if (l == r)
                 continue;
-            load->scratch[l == NOWHERE ? line->left : line->right] = l == NOWHERE ? r : l;
+            load->way_to[l == NOWHERE ? line->left : line->right] = l == NOWHERE ? r : l;
             changed = true;
         }
     }
@@ -47,7 +63,7 @@ int line_before(const place_t *place, int s)
     const yb_contour_t *spot = &place->load->contour[s];
     if (is_line(spot) || spot->left == place->region)
         return NOWHERE;
-    return place->load->scratch[spot->left];
+    return place->load->way_to[spot->left];
 }
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
@@ -61,22 +77,22 @@ static int ruler_of(const place_t *place, yb_index_t p, int line)
     const yb_load_t *load = place->load;
     int32_t z = place->map->vertex[p].z_q8;
     int ruler = -1;
-    int64_t rise = 0;
-    int64_t run = 1;
+    int32_t rise = 0;
+    int32_t run = 1;
     for (int s = 0; s < all_contours(load); s++) {
         const yb_contour_t *spot = &load->contour[s];
-        int32_t top = first_of(place, s)->z_q8;
+        int32_t top = height_of(place, s);
         if (is_line(spot) || (line < 0) != (spot->left == place->region))
             continue;
         if (line >= 0) {
             int before = line_before(place, s);
-            int32_t h = before == NOWHERE ? z : first_of(place, before)->z_q8;
+            int32_t h = before == NOWHERE ? z : height_of(place, before);
             if (before == line || h == z || top == h || (h > z) != (top > h))
                 continue;
         }
-        int64_t up = fix_abs(top - z);
-        int64_t along = edge_length(place->map, p, spot->first);
-        if (up * run > rise * along) {
+        int32_t up = fix_abs(top - z);
+        int32_t along = edge_length(place->map, p, spot->first);
+        if ((int64_t)up * run > (int64_t)rise * along) {
             ruler = s;
             rise = up;
             run = along;
@@ -97,7 +113,7 @@ static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
         int at = corner_of(map, t, p);
         yb_index_t q = map->triangle[t][next3(at)];
-        if (load->region[t] == place->region && load->neighbour[t][at] < NO_TRIANGLE &&
+        if (load->region[t] == place->region && entry_of(load, t, at) < NO_TRIANGLE &&
             map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
             return true;
     }
@@ -115,13 +131,13 @@ static yb_status_t fan(const place_t *place, int line)
         yb_index_t p = (yb_index_t)(contour->first + k);
         int s = ruler_of(place, p, -1);
         yb_index_t summit = s < 0 ? p : load->contour[s].first;
-        load->branch[p].parent = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
+        load->wish[p] = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
     }
     for (int k = 0; k < contour->count; k++) {
         yb_index_t p = (yb_index_t)(contour->first + k);
-        yb_index_t summit = load->branch[p].parent;
+        yb_index_t summit = load->wish[p];
         if (summit != p && mesh_sees(place->map, load, p, summit) &&
-            mesh_force_edge(place->map, load, p, summit, YB_RULE_SUMMIT) != YB_OK)
+            mesh_force_edge(place->map, load, p, summit) != YB_OK)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
@@ -129,22 +145,23 @@ static yb_status_t fan(const place_t *place, int line)
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ------------------------------------------------- */
 
-/* Distance of point p from the segment ab, in 1/64 steps. */
+/* Distance of point p from the segment ab, in 1/64 steps. Plan differences are below 2^14: squares
+ * of lengths are below 2^29.
+ */
 static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
 {
     const yb_vertex_t *v = map->vertex;
-    int64_t abx = (v[b].x_q8 - v[a].x_q8) / 4;
-    int64_t aby = (v[b].y_q8 - v[a].y_q8) / 4;
-    int64_t apx = (v[p].x_q8 - v[a].x_q8) / 4;
-    int64_t apy = (v[p].y_q8 - v[a].y_q8) / 4;
-    int64_t along = abx * apx + aby * apy;
-    int64_t square = abx * abx + aby * aby;
+    int32_t abx = fix_minus(v[b].x_q8, v[a].x_q8) >> 2;
+    int32_t aby = fix_minus(v[b].y_q8, v[a].y_q8) >> 2;
+    int32_t apx = fix_minus(v[p].x_q8, v[a].x_q8) >> 2;
+    int32_t apy = fix_minus(v[p].y_q8, v[a].y_q8) >> 2;
+    int32_t along = abx * apx + aby * apy;
+    int32_t square = abx * abx + aby * aby;
     if (along <= 0)
-        return fix_length((int32_t)apx, (int32_t)apy);
+        return fix_length(apx, apy);
     if (along >= square)
-        return fix_length((int32_t)(apx - abx), (int32_t)(apy - aby));
-    int32_t off = orientation(map, a, b, p);
-    return (int32_t)(fix_abs(off) / (int32_t)(fix_sqrt((uint64_t)square)));
+        return fix_length(apx - abx, apy - aby);
+    return fix_abs(orientation(map, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
 }
 
 /* The nearest way from p to the region's lines of height h. */
@@ -153,7 +170,7 @@ static int32_t shortest_way(const place_t *place, yb_index_t p, int32_t h)
     const yb_load_t *load = place->load;
     int32_t shortest = INT32_MAX;
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+        if (!bounds_at(place, c, h))
             continue;
         for (int k = 0; k < load->contour[c].count; k++)
             shortest = fix_min(
@@ -177,7 +194,7 @@ static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int
     const yb_load_t *load = place->load;
     near_t nearest = {INT32_MAX, -1};
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(place, c) || first_of(place, c)->z_q8 != h)
+        if (!bounds_at(place, c, h))
             continue;
         for (int k = 0; k < load->contour[c].count; k++) {
             yb_index_t q = (yb_index_t)(load->contour[c].first + k);
@@ -202,7 +219,7 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
     if (s < 0)
         return YB_OK;
     yb_index_t peak = load->contour[s].first;
-    int32_t h = first_of(place, line_before(place, s))->z_q8;
+    int32_t h = height_of(place, line_before(place, s));
     int32_t far = shortest_way(place, p, h);
     far += far >> 2;
     near_t near = {-1, -1};
@@ -211,19 +228,21 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
         if (near.point < 0)
             return YB_OK;
         if (mesh_sees(place->map, load, p, (yb_index_t)near.point))
-            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point, YB_RULE_SLOPE);
+            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point);
     }
     return YB_OK;
 }
 
-/* Twice the area that a closed line goes round counter-clockwise. */
+/* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
+ * may wrap.
+ */
 static bool turns_left(const yb_map_t *map, const yb_contour_t *line)
 {
-    int64_t area = 0;
+    uint32_t area = 0;
     for (int k = 1; k + 1 < line->count; k++)
-        area += orientation(map, line->first, (yb_index_t)(line->first + k),
-                            (yb_index_t)(line->first + k + 1));
-    return area > 0;
+        area += (uint32_t)orientation(map, line->first, (yb_index_t)(line->first + k),
+                                      (yb_index_t)(line->first + k + 1));
+    return (int32_t)area > 0;
 }
 
 /* Does the line lie round the region, or does it go from frame to frame? */
@@ -294,12 +313,35 @@ yb_rule_t yb_vertex_rule(const yb_load_t *load, yb_index_t vertex)
                                           : YB_RULE_CONTOUR;
 }
 
+/* The contour of a coded point. */
+static const yb_contour_t *contour_of(const yb_load_t *load, yb_index_t v)
+{
+    int from = 0;
+    for (int end = load->contour_count; end - from > 1;) {
+        int middle = (from + end) / 2;
+        *(load->contour[middle].first <= v ? &from : &end) = middle;
+    }
+    return &load->contour[from];
+}
+
+/* Why an edge is marked follows from its ends: each rule links another pair of kinds. */
+static yb_rule_t rule_of_marked(const yb_load_t *load, yb_index_t low, yb_index_t high)
+{
+    if (high >= load->point_count)
+        return yb_vertex_rule(load, high);
+    const yb_contour_t *a = contour_of(load, low);
+    const yb_contour_t *b = contour_of(load, high);
+    if (!is_line(a) || !is_line(b))
+        return YB_RULE_SUMMIT;
+    return a == b ? YB_RULE_CONTOUR : YB_RULE_SLOPE;
+}
+
 yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t triangle, int edge)
 {
     yb_index_t a = map->triangle[triangle][edge];
     yb_index_t b = map->triangle[triangle][next3(edge)];
-    if (mark_of(load, triangle, edge) != YB_RULE_NONE)
-        return mark_of(load, triangle, edge);
+    if (is_marked(load, triangle, edge))
+        return rule_of_marked(load, a < b ? a : b, a < b ? b : a);
     /* The way that a branch of a skeleton takes, its beginning included. */
     for (int k = 0; k < 2; k++) {
         yb_index_t v = k == 0 ? a : b;

@@ -8,7 +8,7 @@ enum {
     NOWHERE = YB_MAX_CONTOURS /* no line leads there */
 };
 
-/* A region while its rules are applied; load->scratch[r] is the line of it that leads to region r.
+/* A region while its rules are applied; load->way_to[r] is the line of it that leads to region r.
  */
 typedef struct {
     yb_map_t *map;
@@ -32,12 +32,14 @@ static inline const yb_vertex_t *first_of(const place_t *place, int contour)
     return &place->map->vertex[place->load->contour[contour].first];
 }
 
+/* Its height. */
+int32_t height_of(const place_t *place, int contour);
+
+/* Does this contour, as a line of height h, bound the region? */
+bool bounds_at(const place_t *place, int contour, int32_t h);
+
 /* Does this contour, as a line, bound the region? */
-static inline bool bounds(const place_t *place, int contour)
-{
-    const yb_contour_t *c = &place->load->contour[contour];
-    return is_line(c) && (c->left == place->region || c->right == place->region);
-}
+bool bounds(const place_t *place, int contour);
 
 /* The line of the region behind which spot height s lies, or NOWHERE. */
 int line_before(const place_t *place, int s);

@@ -6,12 +6,39 @@ int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
     return map->triangle[t][0] == v ? 0 : map->triangle[t][1] == v ? 1 : 2;
 }
 
+yb_index_t corner_after(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
+{
+    return map->triangle[t][next3(corner_of(map, t, v))];
+}
+
+yb_index_t corner_before(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
+{
+    return map->triangle[t][prev3(corner_of(map, t, v))];
+}
+
+yb_entry_t entry_of(const yb_load_t *load, yb_triangle_t t, int edge)
+{
+    return (yb_entry_t)(load->across[t] >> (edge * ENTRY_BITS)) & ENTRY_ALL;
+}
+
+void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry)
+{
+    int shift = edge * ENTRY_BITS;
+    yb_across_t others = load->across[t] & ~((yb_across_t)ENTRY_ALL << shift);
+    load->across[t] = others | (yb_across_t)entry << shift;
+}
+
+bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
+{
+    return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
+}
+
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
 {
-    int32_t abx = (b->x_q8 >> 2) - (a->x_q8 >> 2);
-    int32_t aby = (b->y_q8 >> 2) - (a->y_q8 >> 2);
-    int32_t acx = (c->x_q8 >> 2) - (a->x_q8 >> 2);
-    int32_t acy = (c->y_q8 >> 2) - (a->y_q8 >> 2);
+    int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;
+    int32_t aby = fix_minus(b->y_q8, a->y_q8) >> 2;
+    int32_t acx = fix_minus(c->x_q8, a->x_q8) >> 2;
+    int32_t acy = fix_minus(c->y_q8, a->y_q8) >> 2;
     return abx * acy - aby * acx;
 }
 
@@ -23,7 +50,7 @@ int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t 
 int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b)
 {
     const yb_vertex_t *v = map->vertex;
-    return fix_length(v[b].x_q8 - v[a].x_q8, v[b].y_q8 - v[a].y_q8);
+    return fix_length(fix_minus(v[b].x_q8, v[a].x_q8), fix_minus(v[b].y_q8, v[a].y_q8));
 }
 
 yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v)
@@ -64,6 +91,13 @@ yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t
     return u;
 }
 
+yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
+{
+    int apex = 0;
+    yb_triangle_t u = across(map, load, t, i, &apex);
+    return map->triangle[u][apex];
+}
+
 bool is_flat(const yb_map_t *map, yb_triangle_t t)
 {
     const yb_index_t *v = map->triangle[t];
@@ -84,14 +118,9 @@ yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint1
     return YB_OK;
 }
 
-mesh_edge_t mesh_edge_at(const yb_map_t *map, yb_triangle_t t, int i)
+uint32_t mesh_edge_key(const yb_map_t *map, yb_triangle_t t, int i)
 {
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    return (mesh_edge_t){a < b ? a : b, a < b ? b : a, t, i};
-}
-
-bool mesh_edge_before(const mesh_edge_t *a, const mesh_edge_t *b)
-{
-    return a->low < b->low || (a->low == b->low && a->high < b->high);
+    uint32_t a = map->triangle[t][i];
+    uint32_t b = map->triangle[t][next3(i)];
+    return a < b ? a << 16 | b : b << 16 | a;
 }

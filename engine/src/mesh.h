@@ -4,8 +4,9 @@
  *          ─► skeleton_add ─► relief_prepare
  *
  * A triangle is three vertices, counter-clockwise; its edge i runs from corner i to corner i + 1,
- * and neighbour[t][i] is the triangle across it. An edge that must stay is *marked*, in both
- * neighbour entries, with the rule it stands for; a marked edge is never flipped nor crossed.
+ * and the entry across it is the triangle there, or NO_TRIANGLE. An edge that must stay (a
+ * contour's, or a link) is *marked*, in the entries from both sides; it is never flipped nor
+ * crossed.
  */
 #ifndef YB_MESH_H
 #define YB_MESH_H
@@ -14,11 +15,16 @@
 
 #include "fix.h"
 
+#define UNKNOWN_HEIGHT INT32_MIN
+
+/* An entry: a triangle, and the mark. Three make a word of load->across. */
 enum {
-    UNKNOWN_HEIGHT = INT32_MIN,
-    MARK_SHIFT = 8 * sizeof(yb_entry_t) - 4,
-    NO_TRIANGLE = (1 << MARK_SHIFT) - 1 /* across the frame */
+    ENTRY_BITS = sizeof(yb_across_t) == 4 ? 10 : 20,
+    ENTRY_MARK = 1L << (ENTRY_BITS - 1),
+    NO_TRIANGLE = ENTRY_MARK - 1, /* across the frame */
+    ENTRY_ALL = ENTRY_MARK | NO_TRIANGLE
 };
+typedef yb_triangle_t yb_entry_t;
 
 static inline int next3(int i)
 {
@@ -30,24 +36,31 @@ static inline int prev3(int i)
     return i == 0 ? 2 : i - 1;
 }
 
+/* What lies across edge `edge` of t: above NO_TRIANGLE if it is marked. */
+yb_entry_t entry_of(const yb_load_t *load, yb_triangle_t t, int edge);
+
+void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry);
+
 static inline yb_triangle_t neighbour_of(const yb_load_t *load, yb_triangle_t t, int edge)
 {
-    return load->neighbour[t][edge] & NO_TRIANGLE;
+    return entry_of(load, t, edge) & NO_TRIANGLE;
 }
 
-/* Why an edge must stay: the upper bits of a neighbour entry. */
-static inline yb_rule_t mark_of(const yb_load_t *load, yb_triangle_t t, int edge)
+/* Must an edge stay? */
+static inline bool is_marked(const yb_load_t *load, yb_triangle_t t, int edge)
 {
-    return (yb_rule_t)(load->neighbour[t][edge] >> MARK_SHIFT);
+    return entry_of(load, t, edge) > NO_TRIANGLE;
 }
 
 /* Which corner of triangle t vertex v is; v is one of them. */
 int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
 
-static inline bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
-{
-    return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
-}
+/* The corner of triangle t that comes after (before) its corner v, counter-clockwise. */
+yb_index_t corner_after(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+
+yb_index_t corner_before(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+
+bool on_frame(const yb_map_t *map, const yb_vertex_t *v);
 
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
@@ -81,9 +94,9 @@ void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_in
 /* Makes the edges round the new vertex p Delaunay. */
 void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p);
 
-/* Makes ab an edge with a mark; corrupt if a marked edge or a vertex is in its way. */
+/* Makes ab a marked edge; corrupt if another or a vertex is in its way. */
 YB_MUST_CHECK yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a,
-                                          yb_index_t b, yb_rule_t mark);
+                                          yb_index_t b);
 
 /* Flips what is not marked until it is Delaunay. */
 void mesh_make_delaunay(yb_map_t *map, yb_load_t *load);
@@ -118,15 +131,13 @@ yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle
 yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
                      int *corner);
 
-/* An edge, in an order that does not depend on how the mesh is written down. */
-typedef struct {
-    yb_index_t low, high; /* its ends' numbers */
-    yb_triangle_t t;      /* of this triangle … */
-    int edge;             /* … this edge */
-} mesh_edge_t;
+/* The vertex opposite edge i of t on its other side; the edge is not on the frame. */
+yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i);
 
-mesh_edge_t mesh_edge_at(const yb_map_t *map, yb_triangle_t t, int i);
-bool mesh_edge_before(const mesh_edge_t *a, const mesh_edge_t *b);
+/* Edge i of t as a number, the lower end's times 65536 and the higher end's: an order that does not
+ * depend on how the mesh is written down.
+ */
+uint32_t mesh_edge_key(const yb_map_t *map, yb_triangle_t t, int i);
 
 /* Do all corners lie at one height? */
 bool is_flat(const yb_map_t *map, yb_triangle_t t);

@@ -5,16 +5,15 @@
 #ifndef YB_MODEL_H
 #define YB_MODEL_H
 
+#include <yamabiko/rom.h>
 #include <yamabiko/yamabiko.h>
 
 #include "fix.h"
 
 /* The interval of the range coder: 24 bits, refilled by whole bytes when it has only 16 left. */
-enum {
-    RANGE_BITS = 24,
-    RANGE_FULL = 1 << RANGE_BITS,
-    RANGE_LEAST = 1 << 16
-};
+#define RANGE_BITS 24
+#define RANGE_FULL ((uint32_t)1 << RANGE_BITS)
+#define RANGE_LEAST ((uint32_t)1 << 16)
 
 /* A number v ≥ 0 is coded by its class c, 2^c - 1 ≤ v < 2^(c+1) - 1, in unary, each decision with
  * its own model until the last, and by c bits within the class.
@@ -70,7 +69,7 @@ enum {
 
 /* Probability of a 0 at the beginning, in 1/256: means over many encoded mountains. */
 /* clang-format off */
-static const uint8_t model_start[MODELS] = {
+static const uint8_t model_start[MODELS] YB_ROM = {
     [MODEL_SECTIONS] = 252,
     [MODEL_OBLONG] = 200,
     [MODEL_COARSE] = 220,
@@ -110,7 +109,7 @@ enum {
 
 static inline uint16_t model_first(int model)
 {
-    return (uint16_t)(model_start[model] << 8);
+    return (uint16_t)((unsigned)yb_rom_u8(&model_start[model]) << 8);
 }
 
 /* The part of the interval that a 0 takes: 0 < bound < range, as range >= 2^16 and the model
@@ -140,7 +139,7 @@ static inline void ring_step(yb_ring_t ring, int *dx, int *dy)
 
 static inline yb_ring_t ring_of(int dx, int dy)
 {
-    int n = fix_max(fix_abs(dx), fix_abs(dy));
+    int n = (int)fix_max(fix_abs(dx), fix_abs(dy));
     int place = dx == n    ? (dy < 0 ? 8 * n + dy : dy)
                 : dy == n  ? 2 * n - dx
                 : dx == -n ? 4 * n - dy
@@ -153,7 +152,7 @@ static inline yb_ring_t ring_of(int dx, int dy)
  */
 static inline int ring_ahead(yb_ring_t last, int n)
 {
-    return (last.place * n + last.length / 2) / last.length + 8 * n - n / 2;
+    return (int)(((int32_t)last.place * n + last.length / 2) / last.length) + 8 * n - n / 2;
 }
 
 /* Lattice points that a run takes when so many are left for so many spot heights: about the median

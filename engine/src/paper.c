@@ -1,6 +1,8 @@
 /* The paper profile: a header of whole bytes, a body of 12N + 20M + 8 bits (docs/SPEC.md 1.1, 1.2).
  * A state is one kind of field; bytes enter a bit buffer and a state runs when its bits are there.
  */
+#include <yamabiko/rom.h>
+
 #include "code.h"
 #include "mesh.h"
 
@@ -40,11 +42,11 @@ static yb_status_t take_header(yb_map_t *map, yb_load_t *load, uint8_t byte)
     load->flags = h[1];
     load->contour_count = h[2];
     load->vertices_promised = h[3];
-    map->east_q8 = (uint16_t)(h[4] << 8);
-    map->north_q8 = (uint16_t)(h[5] << 8);
-    map->cell = (uint16_t)(h[6] << 8 | h[7]);
-    map->unit = (uint16_t)(h[8] << 8 | h[9]);
-    map->base_m = (int16_t)(h[10] << 8 | h[11]);
+    map->east_q8 = (uint16_t)((unsigned)h[4] << 8);
+    map->north_q8 = (uint16_t)((unsigned)h[5] << 8);
+    map->cell = (uint16_t)((unsigned)h[6] << 8 | h[7]);
+    map->unit = (uint16_t)((unsigned)h[8] << 8 | h[9]);
+    map->base_m = (int16_t)((unsigned)h[10] << 8 | h[11]);
     map->seed = h[12];
     load->gain = h[13];
     map->smooth = (load->flags & FLAG_STRAIGHT) == 0;
@@ -185,17 +187,18 @@ void paper_begin(yb_load_t *load)
 
 yb_status_t paper_take(yb_map_t *map, yb_load_t *load, uint8_t byte)
 {
-    static const uint8_t width[] = {
+    static const uint8_t width[] YB_ROM = {
         [HEADER] = 8,  [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8,
         [HEIGHT] = 16, [START] = 16,         [STEP] = 12,  [END] = 8,
     };
     load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
     load->bits_held = (uint8_t)(load->bits_held + 8);
     yb_status_t status = YB_MORE;
-    while (status == YB_MORE && load->bits_held >= width[load->state]) {
-        uint32_t bits = width[load->state];
+    uint8_t bits = yb_rom_u8(&width[load->state]);
+    while (status == YB_MORE && load->bits_held >= bits) {
         load->bits_held = (uint8_t)(load->bits_held - bits);
-        status = take_field(map, load, load->bits >> load->bits_held & ((1u << bits) - 1));
+        status = take_field(map, load, load->bits >> load->bits_held & (((uint32_t)1 << bits) - 1));
+        bits = yb_rom_u8(&width[load->state]);
     }
     return status;
 }

@@ -30,9 +30,7 @@ void raster_clear(const raster_t *raster, uint16_t pixel)
 
 /* --- The plane of 1/depth --------------------------------------------------------------------- */
 
-enum {
-    STEEPEST_Q14 = 1 << 30
-};
+#define STEEPEST_Q14 ((int32_t)1 << 30)
 
 /* a * 2^18 / b, for |a| < 2^30 and b > 0, cut to ±STEEPEST_Q14. */
 static int32_t ratio_q18(int32_t a, int32_t b)
@@ -45,7 +43,7 @@ static int32_t ratio_q18(int32_t a, int32_t b)
     if (shift > 18)
         q >>= shift - 18;
     else
-        q = q >= 1u << (12 + shift) ? STEEPEST_Q14 : q << (18 - shift);
+        q = q >= (uint32_t)1 << (12 + shift) ? (uint32_t)STEEPEST_Q14 : q << (18 - shift);
     return a < 0 ? -(int32_t)q : (int32_t)q;
 }
 

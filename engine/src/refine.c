@@ -20,8 +20,8 @@ static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point
 
 bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
-    int32_t dx = b->at.x_q8 - a->at.x_q8;
-    int32_t dy = b->at.y_q8 - a->at.y_q8;
+    int32_t dx = fix_minus(b->at.x_q8, a->at.x_q8);
+    int32_t dy = fix_minus(b->at.y_q8, a->at.y_q8);
     if (!relief_splits(dx, dy))
         return false;
     /* By plan length over the nearest depth; both ends as they are, unclipped. Length < 2^17 and
@@ -211,7 +211,7 @@ static bool open_level(yb_frame_t *frame, const refine_view_t *view, const raste
     level->pattern = 0;
     for (int i = 0; i < 3; i++) {
         if (refine_splits(frame, level->corner[i], level->corner[i == 2 ? 0 : i + 1]))
-            level->pattern |= (uint8_t)(1 << i);
+            level->pattern = (uint8_t)(level->pattern | 1 << i);
     }
     if (level->pattern != 0 && outside(frame, view, level->corner, &level->planes))
         return false;
@@ -245,7 +245,7 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
         if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
         const uint8_t *child = split_child[level->pattern][level->child & 3];
-        if (!down || level->child == SPLIT_CHILDREN || *child == SPLIT_END) {
+        if (!down || level->child == SPLIT_CHILDREN || yb_rom_u8(child) == SPLIT_END) {
             if (level == frame->level)
                 return;
             level--;
@@ -254,9 +254,10 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
             continue;
         }
         yb_level_t *below = level + 1;
-        for (int i = 0; i < 3; i++)
-            below->corner[i] =
-                child[i] < 3 ? level->corner[child[i]] : &level->middle[child[i] - 3];
+        for (int i = 0; i < 3; i++) {
+            uint8_t k = yb_rom_u8(&child[i]);
+            below->corner[i] = k < 3 ? level->corner[k] : &level->middle[k - 3];
+        }
         below->planes = level->planes;
         level = below;
         down = open_level(frame, view, raster, level);

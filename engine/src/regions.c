@@ -8,9 +8,9 @@
 
 static yb_triangle_t root_of(yb_load_t *load, yb_triangle_t t)
 {
-    while (load->region[t] != t) {
-        load->region[t] = load->region[load->region[t]]; /* halve the path */
-        t = load->region[t];
+    while (load->root[t] != t) {
+        load->root[t] = load->root[load->root[t]]; /* halve the path */
+        t = load->root[t];
     }
     return t;
 }
@@ -19,31 +19,33 @@ static yb_triangle_t root_of(yb_load_t *load, yb_triangle_t t)
 static yb_index_t left_of(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b)
 {
     yb_triangle_t t = first_at(map, load, a);
-    while (map->triangle[t][next3(corner_of(map, t, a))] != b)
+    while (corner_after(map, t, a) != b)
         t = turn_left(map, load, t, a);
-    return (yb_index_t)load->region[t];
+    return load->region[t];
 }
 
 yb_status_t regions_find(const yb_map_t *map, yb_load_t *load)
 {
     for (yb_triangle_t t = 0; t < map->triangle_count; t++)
-        load->region[t] = t;
+        load->root[t] = t;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++) {
-            yb_entry_t u = load->neighbour[t][i];
+            yb_entry_t u = entry_of(load, t, i);
             if (u >= t) /* each edge once; not across the frame, not across a contour */
                 continue;
             /* The smaller index wins: a root is the first triangle of its region. */
             yb_triangle_t a = root_of(load, t);
             yb_triangle_t b = root_of(load, (yb_triangle_t)u);
-            load->region[a > b ? a : b] = a > b ? b : a;
+            load->root[a > b ? a : b] = a > b ? b : a;
         }
     }
-    /* From roots to numbers, in place: a triangle's parent has a smaller index, so it is done. */
+    /* From roots to numbers: a triangle's parent has a smaller index, so it is done. */
     load->region_count = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        yb_triangle_t parent = load->region[t];
-        load->region[t] = parent == t ? load->region_count++ : load->region[parent];
+        yb_triangle_t parent = load->root[t];
+        load->region[t] = load->region[parent];
+        if (parent == t)
+            load->region[t] = (yb_index_t)load->region_count++;
     }
     int lines = 0;
     for (int i = 0; i < load->contour_count; i++) {
@@ -55,7 +57,7 @@ yb_status_t regions_find(const yb_map_t *map, yb_load_t *load)
             contour->right = left_of(map, load, b, a);
             lines++;
         } else {
-            contour->left = contour->right = (yb_index_t)load->region[load->star[a]];
+            contour->left = contour->right = load->region[load->star[a]];
         }
     }
     /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */

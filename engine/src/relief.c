@@ -9,9 +9,14 @@ enum {
     HASH_MOST = 320,       /* the sum less its mean is cut to ± this, one time in 38 */
     HASH_LOG2_Q11 = 14712, /* log2 of the standard deviation that remains, 145.37, in 1/2048 */
     NOISE_SHIFT = 9,
-    LONGEST_CLASS = 48,    /* 32 steps: longer edges move like these */
-    MOST_REACH_Q8 = 400000 /* what gravity leaves: see relief_reach */
+    LONGEST_CLASS = 48 /* 32 steps: longer edges move like these */
 };
+
+/* What gravity leaves: see relief_reach. */
+#define MOST_REACH_Q8 400000
+
+/* One in the units of fix_log2_q11. */
+#define ONE_Q11 ((int32_t)2048)
 
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
 
@@ -34,8 +39,8 @@ static int32_t place_noise(const yb_map_t *map, uint32_t x_q8, uint32_t y_q8)
  */
 static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
 {
-    int32_t dx = b->x_q8 - a->x_q8;
-    int32_t dy = b->y_q8 - a->y_q8;
+    int32_t dx = fix_minus(b->x_q8, a->x_q8);
+    int32_t dy = fix_minus(b->y_q8, a->y_q8);
     int32_t rise = (a->gx_q11 - b->gx_q11) * dx + (a->gy_q11 - b->gy_q11) * dy;
     return (rise + (1 << 13)) >> 14; /* slope 11 bits, and an eighth */
 }
@@ -52,10 +57,10 @@ static int32_t limit_noise(int32_t noise, int32_t length, int32_t rise)
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle)
 {
-    int32_t dx = b->x_q8 - a->x_q8;
-    int32_t dy = b->y_q8 - a->y_q8;
-    uint16_t x = (uint16_t)((a->x_q8 + b->x_q8) >> 1);
-    uint16_t y = (uint16_t)((a->y_q8 + b->y_q8) >> 1);
+    int32_t dx = fix_minus(b->x_q8, a->x_q8);
+    int32_t dy = fix_minus(b->y_q8, a->y_q8);
+    uint16_t x = fix_middle(a->x_q8, b->x_q8);
+    uint16_t y = fix_middle(a->y_q8, b->y_q8);
     int32_t z = (a->z_q8 + b->z_q8) >> 1;
     if (map->smooth)
         z += smooth_rise(a, b);
@@ -81,8 +86,8 @@ void relief_bound(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *
     for (int i = 0; i < 3; i++) {
         const yb_vertex_t *p = corner[i];
         const yb_vertex_t *q = corner[i + 1];
-        int class = relief_class(q->x_q8 - p->x_q8, q->y_q8 - p->y_q8);
-        bound->longest = fix_max(bound->longest, class);
+        int class = relief_class(fix_minus(q->x_q8, p->x_q8), fix_minus(q->y_q8, p->y_q8));
+        bound->longest = (int)fix_max(bound->longest, class);
         if (map->smooth)
             rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
     }
@@ -123,11 +128,11 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
         const yb_vertex_t *a = &map->vertex[map->triangle[t][0]];
         const yb_vertex_t *b = &map->vertex[map->triangle[t][1]];
         const yb_vertex_t *c = &map->vertex[map->triangle[t][2]];
-        int32_t abx = (b->x_q8 - a->x_q8) >> 2;
-        int32_t aby = (b->y_q8 - a->y_q8) >> 2;
+        int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;
+        int32_t aby = fix_minus(b->y_q8, a->y_q8) >> 2;
         int32_t abz = b->z_q8 - a->z_q8;
-        int32_t acx = (c->x_q8 - a->x_q8) >> 2;
-        int32_t acy = (c->y_q8 - a->y_q8) >> 2;
+        int32_t acx = fix_minus(c->x_q8, a->x_q8) >> 2;
+        int32_t acy = fix_minus(c->y_q8, a->y_q8) >> 2;
         int32_t acz = c->z_q8 - a->z_q8;
         if (abz != 0 || acz != 0) {
             sum_x += (int64_t)aby * acz - (int64_t)abz * acy;
@@ -158,12 +163,13 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
 static void limit_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
 {
     yb_vertex_t *a = &map->vertex[v];
-    int32_t share_q15 = 1 << 15;
+    int32_t share_q15 = 32768;
     yb_triangle_t first = first_at(map, load, v);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         for (int i = 0; i < 3; i++) {
             const yb_vertex_t *b = &map->vertex[map->triangle[t][i]];
-            int32_t s = a->gx_q11 * (b->x_q8 - a->x_q8) + a->gy_q11 * (b->y_q8 - a->y_q8);
+            int32_t s =
+                a->gx_q11 * fix_minus(b->x_q8, a->x_q8) + a->gy_q11 * fix_minus(b->y_q8, a->y_q8);
             int32_t rise = b->z_q8 - a->z_q8;
             int64_t most = (int64_t)fix_abs(rise) * 3072;
             int32_t along = fix_abs(s);
@@ -180,7 +186,7 @@ static void limit_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
  */
 static int32_t log2_square_q11(uint32_t half_square)
 {
-    return fix_log2_q11(half_square) - 14 * 2048;
+    return fix_log2_q11(half_square) - 14 * ONE_Q11;
 }
 
 /* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or INT32_MIN if no
@@ -202,17 +208,17 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
             uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
             if (rise == 0)
                 continue;
-            int32_t dx = fix_abs(b->x_q8 - a->x_q8) >> 1;
-            int32_t dy = fix_abs(b->y_q8 - a->y_q8) >> 1;
+            int32_t dx = fix_abs(fix_minus(b->x_q8, a->x_q8)) >> 1;
+            int32_t dy = fix_abs(fix_minus(b->y_q8, a->y_q8)) >> 1;
             int32_t square = log2_square_q11((uint32_t)(dx * dx) + (uint32_t)(dy * dy));
             int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
-            sum += term < 24 * 2048 ? fix_exp2_q11(term + 8 * 2048)
-                                    : (uint64_t)fix_exp2_q11(term) << 8;
+            sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
+                                       : (uint64_t)fix_exp2_q11(term) << 8;
         }
     }
     if (edges == 0 || sum < edges)
         return INT32_MIN;
-    return fix_log2_q11(sum / edges) - 8 * 2048;
+    return fix_log2_q11(sum / edges) - 8 * ONE_Q11;
 }
 
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
@@ -221,12 +227,12 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
 static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
 {
     /* A midpoint of fractional Brownian motion strays by L^H 2^-H sqrt(1 - 2^(2H-2)). */
-    uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * 2048);
+    uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * ONE_Q11);
     int32_t roughness = log2_roughness(map, load, hurst_q8);
     if (rest == 0 || load->gain == 0 || roughness == INT32_MIN)
         return INT32_MIN;
-    int32_t variance = roughness + fix_log2_q11(rest) - 16 * 2048 - hurst_q8 * 16;
-    return (variance >> 1) + fix_log2_q11(load->gain) - 5 * 2048;
+    int32_t variance = roughness + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
+    return (variance >> 1) + fix_log2_q11(load->gain) - 5 * ONE_Q11;
 }
 
 /* How far noise may move the midpoint of an edge of class c: by its largest hash, and by gravity
@@ -235,7 +241,7 @@ static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_
  */
 static uint32_t most_move(uint32_t scale, int c)
 {
-    uint32_t length = (fix_exp2_q11((c + 1) * 512) + 1) * 9 / 4;
+    uint32_t length = (fix_exp2_q11((int32_t)(c + 1) * 512) + 1) * 9 / 4;
     uint32_t move = (scale * HASH_MOST >> NOISE_SHIFT) + 1;
     return move < length ? move : length;
 }
@@ -249,11 +255,11 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
 {
     for (int c = 0; c < YB_LENGTH_CLASSES; c++) {
         /* The class stands for the geometric middle of its lengths: log2 (L/2)^2 = c/2 + 1/4. */
-        int32_t length = (fix_min(c, LONGEST_CLASS) * 1024 + 512 - 14 * 2048) >> 1;
+        int32_t length = (fix_min(c, LONGEST_CLASS) * 1024 + 512 - 14 * ONE_Q11) >> 1;
         uint32_t scale = 0;
         if (amplitude != INT32_MIN) {
             int32_t e = amplitude + ((hurst_q8 * length) >> 8);
-            scale = fix_exp2_q11(e + NOISE_SHIFT * 2048 - HASH_LOG2_Q11);
+            scale = fix_exp2_q11(e + NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
         }
         map->noise[c] = (uint16_t)(scale > 65535 ? 65535 : scale);
         uint32_t move = most_move(map->noise[c], c);

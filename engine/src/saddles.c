@@ -20,7 +20,7 @@ static int32_t other_height(const place_t *place, int32_t h)
         int32_t z = h;
         if (c < load->contour_count) {
             if (bounds(place, c))
-                z = first_of(place, c)->z_q8;
+                z = height_of(place, c);
         } else {
             yb_index_t corner = load->corner[c - load->contour_count];
             if (load->region[load->star[corner]] == place->region)
@@ -46,7 +46,7 @@ typedef struct {
 } pair_t;
 
 /* Where edge pq crosses the segment ab, in 1/65536 of its length; -1: it does not. An end of pq
- * that lies on ab counts as lying to the right of it. Areas are within 2^29: the quotient fits.
+ * that lies on ab counts as lying to the right of it. Areas are within 2^29, their difference 2^30.
  */
 static int32_t crossing(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t p, yb_index_t q)
 {
@@ -55,7 +55,7 @@ static int32_t crossing(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_inde
     if ((from > 0) == (to > 0) ||
         (orientation(map, a, b, p) > 0) == (orientation(map, a, b, q) > 0))
         return -1;
-    return (int32_t)((int64_t)from * 65536 / ((int64_t)from - to));
+    return fix_scale(from, 65536, from - to);
 }
 
 /* Of all places between `after` and `before` at which the segment ab crosses a line, the first one,
@@ -105,8 +105,7 @@ static yb_status_t link_to_line(const place_t *place, yb_index_t m, int line)
             least = length;
         }
     }
-    return nearest < 0 ? YB_OK
-                       : mesh_force_edge(place->map, load, m, (yb_index_t)nearest, YB_RULE_SADDLE);
+    return nearest < 0 ? YB_OK : mesh_force_edge(place->map, load, m, (yb_index_t)nearest);
 }
 
 static bool has_corner_on(const place_t *place, yb_triangle_t t, int line)
@@ -128,7 +127,7 @@ static int side_in(const place_t *place, yb_triangle_t t, const yb_vertex_t *p)
     for (int i = 0; i < 3; i++) {
         int32_t side =
             area_of(&v[place->map->triangle[t][i]], &v[place->map->triangle[t][next3(i)]], p);
-        if (side < 0 || (side == 0 && (on >= 0 || mark_of(place->load, t, i) != YB_RULE_NONE)))
+        if (side < 0 || (side == 0 && (on >= 0 || is_marked(place->load, t, i))))
             return OUTSIDE;
         if (side == 0)
             on = i;
@@ -147,6 +146,15 @@ static bool find_between(const place_t *place, const yb_vertex_t *p, int line_a,
             return true;
     }
     return false;
+}
+
+/* From a to b, in 1/65536 of the way, on the quarter-step lattice. Plan differences are multiples
+ * of 4 below 2^16: a quarter of one, times 2^16, is below 2^30.
+ */
+static uint16_t part_way(uint16_t a, uint16_t b, int32_t at_q16)
+{
+    int32_t way = ((fix_minus(b, a) >> 2) * at_q16 + (1 << 13)) >> 14;
+    return (uint16_t)((a + way + 32) & ~(int32_t)63);
 }
 
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
@@ -172,14 +180,11 @@ static yb_status_t join(const level_t *level, const pair_t *pair, bool *joined)
     /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
     int64_t weight_a = (int64_t)fix_abs(a->z_q8 - level->h) * (65536 - enters);
     int64_t weight_b = (int64_t)fix_abs(b->z_q8 - level->h) * leaves;
-    int64_t gap = enters - leaves;
-    int64_t at = leaves + gap * weight_b / (weight_a + weight_b + 1);
-    at = at < leaves + gap / 8 ? leaves + gap / 8 : at;
-    at = at > enters - gap / 8 ? enters - gap / 8 : at;
-    /* On the quarter-step lattice. */
-    int64_t x = a->x_q8 + (((b->x_q8 - a->x_q8) * at + 32768) >> 16);
-    int64_t y = a->y_q8 + (((b->y_q8 - a->y_q8) * at + 32768) >> 16);
-    yb_vertex_t link = {.x_q8 = (uint16_t)((x + 32) & ~63), .y_q8 = (uint16_t)((y + 32) & ~63)};
+    int32_t gap = enters - leaves;
+    int32_t at = leaves + (int32_t)(gap * weight_b / (weight_a + weight_b + 1));
+    at = fix_clamp(at, leaves + gap / 8, enters - gap / 8);
+    yb_vertex_t link = {.x_q8 = part_way(a->x_q8, b->x_q8, at),
+                        .y_q8 = part_way(a->y_q8, b->y_q8, at)};
     yb_triangle_t t = 0;
     int edge = -1;
     if (!find_between(place, &link, line_a, line_b, &t, &edge))
@@ -210,9 +215,9 @@ static yb_index_t group_of(const yb_load_t *load, int line)
 static int peak_behind(const level_t *level, int s)
 {
     int line = line_before(level->place, s);
-    if (line == NOWHERE || first_of(level->place, line)->z_q8 != level->h)
+    if (line == NOWHERE || height_of(level->place, line) != level->h)
         return NOWHERE;
-    int32_t up = first_of(level->place, s)->z_q8 - level->h;
+    int32_t up = height_of(level->place, s) - level->h;
     return up != 0 && (up > 0) == (level->h > level->other) ? line : NOWHERE;
 }
 
@@ -223,7 +228,7 @@ static bool comes_after(const pair_t *pair, const pair_t *last)
     return pair->a > last->a || (pair->a == last->a && pair->b > last->b);
 }
 
-/* The nearest pair of peaks (branch[s].parent: the line that spot height s stands behind) whose
+/* The nearest pair of peaks (wish[s]: the line that spot height s stands behind) whose
  * lines are not joined yet and that comes after `last`, in the order of distance, then of the spot
  * heights' numbers.
  */
@@ -232,9 +237,9 @@ static bool next_pair(const level_t *level, const pair_t *last, pair_t *next)
     const yb_load_t *load = level->place->load;
     bool found = false;
     for (int a = 0; a < all_contours(load); a++) {
-        int line_a = load->branch[a].parent;
+        int line_a = load->wish[a];
         for (int b = a + 1; b < all_contours(load) && line_a != NOWHERE; b++) {
-            int line_b = load->branch[b].parent;
+            int line_b = load->wish[b];
             if (line_b == NOWHERE || line_b == line_a ||
                 group_of(load, line_a) == group_of(load, line_b))
                 continue;
@@ -260,14 +265,13 @@ static yb_status_t join_level(const level_t *level)
     pair_t pair = last;
     int refusals = 0;
     for (int s = 0; s < all_contours(load); s++)
-        load->branch[s].parent = (yb_index_t)peak_behind(level, s);
+        load->wish[s] = (yb_index_t)peak_behind(level, s);
     while (refusals < MOST_REFUSALS && next_pair(level, &last, &pair)) {
         bool joined = false;
         if (join(level, &pair, &joined) != YB_OK)
             return YB_ERR_LIMIT;
         if (joined)
-            load->group[group_of(load, load->branch[pair.a].parent)] =
-                group_of(load, load->branch[pair.b].parent);
+            load->group[group_of(load, load->wish[pair.a])] = group_of(load, load->wish[pair.b]);
         else
             refusals++;
         last = pair;
@@ -283,10 +287,10 @@ yb_status_t saddles_add(const place_t *place)
     for (int c = 0; c < load->contour_count; c++) {
         if (!bounds(place, c))
             continue;
-        level_t level = {place, first_of(place, c)->z_q8, 0};
+        level_t level = {place, height_of(place, c), 0};
         level.other = other_height(place, level.h);
         int first = 0;
-        while (!bounds(place, first) || first_of(place, first)->z_q8 != level.h)
+        while (!bounds_at(place, first, level.h))
             first++;
         bool has_between = fix_abs(level.h - level.other) >= 2;
         if (first == c && has_between && join_level(&level) != YB_OK)

@@ -1,5 +1,7 @@
 #include "shade.h"
 
+#include <yamabiko/rom.h>
+
 #include "fix.h"
 
 enum {
@@ -10,15 +12,15 @@ enum {
 };
 
 /* Hues of the ground from the lowest to the highest: woods, meadows, bare soil, rock, snow. */
-static const uint8_t ground_hue[HUES][3] = {
+static const uint8_t ground_hue[HUES][3] YB_ROM = {
     {62, 112, 66},   {81, 125, 70},   {99, 139, 74},   {118, 152, 78},
     {137, 157, 87},  {157, 163, 95},  {176, 168, 104}, {169, 152, 97},
     {163, 136, 89},  {156, 120, 82},  {151, 123, 95},  {147, 127, 109},
     {142, 130, 122}, {169, 162, 157}, {196, 194, 192}, {248, 248, 252},
 };
-static const uint8_t water_hue[3] = {72, 116, 168};
-static const uint8_t wall_hue[3] = {150, 132, 112};
-static const uint8_t sky[3] = {206, 222, 236};
+static const uint8_t water_hue[3] YB_ROM = {72, 116, 168};
+static const uint8_t wall_hue[3] YB_ROM = {150, 132, 112};
+static const uint8_t sky[3] YB_ROM = {206, 222, 236};
 
 void shade_begin(yb_frame_t *frame)
 {
@@ -37,12 +39,15 @@ static uint16_t pixel_of(const yb_frame_t *frame, const uint8_t hue[3], uint32_t
     if (frame->screen.format == YB_GREY4)
         return (uint16_t)shade;
     uint32_t light = shade + 1;
-    return rgb565(hue[0] * light >> 4, hue[1] * light >> 4, hue[2] * light >> 4);
+    return rgb565(yb_rom_u8(&hue[0]) * light >> 4, yb_rom_u8(&hue[1]) * light >> 4,
+                  yb_rom_u8(&hue[2]) * light >> 4);
 }
 
 uint16_t shade_background(const yb_frame_t *frame)
 {
-    return frame->screen.format == YB_GREY4 ? 0 : rgb565(sky[0], sky[1], sky[2]);
+    return frame->screen.format == YB_GREY4
+               ? 0
+               : rgb565(yb_rom_u8(&sky[0]), yb_rom_u8(&sky[1]), yb_rom_u8(&sky[2]));
 }
 
 /* The shade of a surface by the cosine between its upward normal n and the sun (Lambert). The
@@ -83,13 +88,13 @@ static void normal_of(const yb_frame_t *frame, const yb_vertex_t *const p[3], in
     for (int k = 0; k < 2; k++) {
         int32_t rise = fix_max(p[k + 1]->z_q8, frame->view.water_q8) -
                        fix_max(p[0]->z_q8, frame->view.water_q8);
-        d[k][0] = p[k + 1]->x_q8 - p[0]->x_q8;
-        d[k][1] = p[k + 1]->y_q8 - p[0]->y_q8;
+        d[k][0] = fix_minus(p[k + 1]->x_q8, p[0]->x_q8);
+        d[k][1] = fix_minus(p[k + 1]->y_q8, p[0]->y_q8);
         d[k][2] = (rise * (frame->view.exaggerate_q8 >> 3)) >> 5; /* 2^19 * 2^8 */
         for (int i = 0; i < 3; i++)
             all |= (uint32_t)fix_abs(d[k][i]);
     }
-    int shift = fix_max(fix_log2_floor(all | 1) - 10, 0);
+    int shift = (int)fix_max(fix_log2_floor(all | 1) - 10, 0);
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < 3; i++)
             d[k][i] >>= shift;
@@ -119,7 +124,7 @@ uint16_t shade_ground(const yb_frame_t *frame, const yb_vertex_t *a, const yb_ve
 uint16_t shade_wall(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
 {
     /* Outward: to the right of the edge. */
-    const int32_t normal[3] = {b->y_q8 - a->y_q8, a->x_q8 - b->x_q8, 0};
+    const int32_t normal[3] = {fix_minus(b->y_q8, a->y_q8), fix_minus(a->x_q8, b->x_q8), 0};
     int32_t shade = fix_max((int32_t)lambert(frame, normal) - WALL_DIM, DARKEST);
     int32_t water = frame->view.water_q8;
     bool flooded = a->z_q8 <= water && b->z_q8 <= water;

@@ -19,32 +19,29 @@ static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t 
 {
     yb_index_t a = map->triangle[t][i];
     yb_index_t b = map->triangle[t][next3(i)];
-    return mark_of(load, t, i) == YB_RULE_NONE && a < load->first_skeleton &&
-           b < load->first_skeleton && map->vertex[a].z_q8 == map->vertex[b].z_q8;
+    return !is_marked(load, t, i) && a < load->first_skeleton && b < load->first_skeleton &&
+           map->vertex[a].z_q8 == map->vertex[b].z_q8;
 }
 
-/* The vertex across edge i of t; the edge is not on the frame. */
-static yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
-{
-    int apex = 0;
-    yb_triangle_t u = across(map, load, t, i, &apex);
-    return map->triangle[u][apex];
-}
+/* A bridge, and what its middle is reached from. */
+typedef struct {
+    yb_triangle_t t;
+    int edge;
+    uint32_t key; /* its place in the order of edges */
+    yb_index_t parent, other;
+} bridge_t;
 
-/* Splits edge i of t, and says what its middle is reached from; its height is that of the edge
- * until heights are known.
- */
-static yb_status_t split_bridge(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i,
-                                yb_index_t parent, yb_index_t other)
+/* Splits a bridge; the height of its middle is that of the edge until heights are known. */
+static yb_status_t split_bridge(yb_map_t *map, yb_load_t *load, const bridge_t *bridge)
 {
-    const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
-    const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
+    const yb_vertex_t *a = &map->vertex[map->triangle[bridge->t][bridge->edge]];
+    const yb_vertex_t *b = &map->vertex[map->triangle[bridge->t][next3(bridge->edge)]];
     yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, (uint16_t)((a->x_q8 + b->x_q8) >> 1),
-                        (uint16_t)((a->y_q8 + b->y_q8) >> 1), a->z_q8) != YB_OK)
+    if (mesh_add_vertex(map, load, fix_middle(a->x_q8, b->x_q8), fix_middle(a->y_q8, b->y_q8),
+                        a->z_q8) != YB_OK)
         return YB_ERR_LIMIT;
-    load->branch[m] = (yb_branch_t){.parent = parent, .other = other, .end = m};
-    mesh_split(map, load, t, i, m);
+    load->branch[m] = (yb_branch_t){.parent = bridge->parent, .other = bridge->other, .end = m};
+    mesh_split(map, load, bridge->t, bridge->edge, m);
     return YB_OK;
 }
 
@@ -66,89 +63,81 @@ static yb_index_t beginning_of(const yb_map_t *map, const yb_load_t *load, yb_in
 
 /* How steep the ground is from which the branch with the first point m comes, in 1/256: the
  * steepest edge that goes on beyond, or else that to m. Where branches from two peaks meet, ways
- * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1).
+ * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1). Rises are within 2^18.
  */
 static uint32_t steepness(const yb_map_t *map, const yb_load_t *load, yb_index_t m)
 {
     yb_index_t p = load->branch[m].parent;
     int32_t up = map->vertex[p].z_q8 - map->vertex[m].z_q8;
-    int64_t slope = 0;
+    int32_t slope = 0;
     yb_triangle_t first = first_at(map, load, p);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
         for (int i = 0; i < 3; i++) {
             yb_index_t q = map->triangle[t][i];
             int32_t on = map->vertex[q].z_q8 - map->vertex[p].z_q8;
             if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
-                int64_t steep = ((int64_t)fix_abs(on) << 8) / edge_length(map, p, q);
-                slope = steep > slope ? steep : slope;
+                slope = fix_max(slope, (fix_abs(on) << 8) / edge_length(map, p, q));
             }
         }
     }
     if (slope == 0)
-        slope = ((int64_t)fix_abs(up) << 8) / edge_length(map, p, m);
-    return (uint32_t)(slope < 1 ? 1 : slope > 1 << 14 ? 1 << 14 : slope);
+        slope = (fix_abs(up) << 8) / edge_length(map, p, m);
+    return (uint32_t)fix_clamp(slope, 1, 1 << 14);
 }
 
-/* A way and one edge more, weighted, as far as 32 bits go. */
+/* A way and one edge more, weighted, as far as 32 bits go. Weights are at most 2^14 and lengths
+ * below 2^17: the edge adds less than 2^26.
+ */
 static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_index_t a,
                         yb_index_t b)
 {
-    uint64_t sum = way + (uint64_t)weight * (uint32_t)(edge_length(map, a, b) >> 5);
-    return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
+    uint32_t sum = way + weight * (uint32_t)(edge_length(map, a, b) >> 5);
+    return sum < way ? UINT32_MAX : sum;
 }
 
-/* What the middle of edge i of t would be reached from, if a branch began there; *other is `none`
- * if that is one point only. On the frame a bridge between two points of lines is met by its mirror
- * image; the frame's own corners, at one height, bridge nothing. False: none begins.
+/* Finds what the middle of a bridge would be reached from, if a branch began there; `other` is the
+ * middle itself if that is one point only. On the frame a bridge between two points of lines is met
+ * by its mirror image; the frame's own corners, at one height, bridge nothing. False: none begins.
  */
-static bool begins_branch(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
-                          yb_index_t none, yb_index_t *parent, yb_index_t *other)
+static bool begins_branch(const yb_map_t *map, const yb_load_t *load, bridge_t *bridge)
 {
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    int32_t h = map->vertex[a].z_q8;
+    yb_triangle_t t = bridge->t;
+    int i = bridge->edge;
+    int32_t h = map->vertex[map->triangle[t][i]].z_q8;
     yb_index_t p = map->triangle[t][prev3(i)];
     yb_index_t q = p;
-    if (load->neighbour[t][i] != NO_TRIANGLE)
+    if (entry_of(load, t, i) != NO_TRIANGLE)
         q = apex_across(map, load, t, i);
-    else if (a >= load->point_count || b >= load->point_count)
+    else if ((bridge->key & 0xffff) >= load->point_count)
         return false;
     /* The lower number first; but flat ground last. */
     bool swap = map->vertex[p].z_q8 == h || (q < p && map->vertex[q].z_q8 != h);
-    *parent = swap ? q : p;
-    *other = swap ? p : q;
-    int32_t up = map->vertex[*parent].z_q8 - h;
-    int32_t up_other = map->vertex[*other].z_q8 - h;
-    if (up_other == 0 && *other < load->first_skeleton)
-        *other = none;
+    bridge->parent = swap ? q : p;
+    bridge->other = swap ? p : q;
+    int32_t up = map->vertex[bridge->parent].z_q8 - h;
+    int32_t up_other = map->vertex[bridge->other].z_q8 - h;
+    if (up_other == 0 && bridge->other < load->first_skeleton)
+        bridge->other = (yb_index_t)map->vertex_count;
     /* Points of this stage still have their edge's height. Ground that goes on falling across the
      * bridge needs no point on it. */
     return up != 0 && (up_other == 0 || (up > 0) == (up_other > 0));
 }
 
-/* The bridge from v to the lowest higher number at which a branch begins, and what from. */
-static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_t v,
-                           mesh_edge_t *next, yb_index_t *parent, yb_index_t *other)
+/* The bridge from v to the lowest higher number at which a branch begins. */
+static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
 {
-    const yb_index_t none = (yb_index_t)map->vertex_count;
-    next->high = none;
+    next->key = UINT32_MAX;
     yb_triangle_t first = first_at(map, load, v);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        for (int k = 0; k < 2; k++) {
-            int at = corner_of(map, t, v);
-            mesh_edge_t bridge = mesh_edge_at(map, t, k == 0 ? at : prev3(at));
-            yb_index_t p = none;
-            yb_index_t q = none;
-            if (bridge.low == v && bridge.high < next->high &&
-                is_bridge(map, load, t, bridge.edge) &&
-                begins_branch(map, load, t, bridge.edge, none, &p, &q)) {
+        int at = corner_of(map, t, v);
+        for (int k = 0; k < 2; k++, at = prev3(at)) {
+            bridge_t bridge = {t, at, mesh_edge_key(map, t, at), v, v};
+            if (bridge.key >> 16 == v && bridge.key < next->key && is_bridge(map, load, t, at) &&
+                begins_branch(map, load, &bridge))
                 *next = bridge;
-                *parent = p;
-                *other = q;
-            }
         }
     }
-    return next->high != none;
+    return next->key != UINT32_MAX;
 }
 
 /* Branches begin at bridges that have a point of another height on one side, and on the other flat
@@ -158,55 +147,49 @@ static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_
 static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
 {
     for (int v = 0; v < load->first_skeleton; v++) {
-        mesh_edge_t bridge = {0};
-        yb_index_t parent = 0;
-        yb_index_t other = 0;
-        while (find_beginning(map, load, (yb_index_t)v, &bridge, &parent, &other)) {
+        bridge_t bridge;
+        while (find_beginning(map, load, (yb_index_t)v, &bridge)) {
             yb_index_t m = (yb_index_t)map->vertex_count;
-            if (split_bridge(map, load, bridge.t, bridge.edge, parent, other) != YB_OK)
+            if (split_bridge(map, load, &bridge) != YB_OK)
                 return YB_ERR_LIMIT;
-            load->branch[m].way = add_way(map, 0, steepness(map, load, m), parent, m);
+            load->way[m] = add_way(map, 0, steepness(map, load, m), bridge.parent, m);
         }
     }
     return YB_OK;
 }
 
 /* The next bridge that point v looks at. */
-static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, mesh_edge_t *next)
+static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
 {
-    bool found = false;
+    next->key = UINT32_MAX;
     yb_triangle_t first = first_at(map, load, v);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
         int i = next3(corner_of(map, t, v));
-        mesh_edge_t bridge = mesh_edge_at(map, t, i);
-        if (is_bridge(map, load, t, i) && (!found || mesh_edge_before(&bridge, next))) {
-            found = true;
-            *next = bridge;
-        }
+        uint32_t key = mesh_edge_key(map, t, i);
+        if (key < next->key && is_bridge(map, load, t, i))
+            *next = (bridge_t){.t = t, .edge = i, .key = key, .parent = v, .other = v};
     }
-    return found;
+    return next->key != UINT32_MAX;
 }
 
 /* Splits all bridges that v looks at. One on the frame counts as met by its mirror image. */
 static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
 {
     int32_t unused = 0;
+    int32_t h =
+        map->vertex[v].z_q8; /* still that of the bridge that v splits, and of its flat ground */
     uint32_t weight = steepness(map, load, beginning_of(map, load, v, &unused));
-    mesh_edge_t bridge = {0};
+    bridge_t bridge;
     while (find_bridge(map, load, v, &bridge)) {
-        yb_triangle_t t = bridge.t;
-        int i = bridge.edge;
         yb_index_t m = (yb_index_t)map->vertex_count;
-        yb_index_t q = v;
-        if (neighbour_of(load, t, i) != NO_TRIANGLE) {
-            q = apex_across(map, load, t, i);
-            if (q < load->first_skeleton &&
-                map->vertex[q].z_q8 == map->vertex[map->triangle[t][i]].z_q8)
-                q = m; /* flat ground: it will grow on */
+        if (neighbour_of(load, bridge.t, bridge.edge) != NO_TRIANGLE) {
+            yb_index_t q = apex_across(map, load, bridge.t, bridge.edge);
+            bool flat = q < load->first_skeleton && map->vertex[q].z_q8 == h;
+            bridge.other = flat ? m : q; /* flat ground: it will grow on */
         }
-        if (split_bridge(map, load, t, i, v, q) != YB_OK)
+        if (split_bridge(map, load, &bridge) != YB_OK)
             return YB_ERR_LIMIT;
-        load->branch[m].way = add_way(map, load->branch[v].way, weight, v, m);
+        load->way[m] = add_way(map, load->way[v], weight, v, m);
     }
     load->branch[v].grown = true;
     return YB_OK;
@@ -219,7 +202,7 @@ static yb_status_t grow_all(yb_map_t *map, yb_load_t *load)
         int next = -1;
         for (int v = load->first_skeleton; v < map->vertex_count; v++) {
             const yb_branch_t *branch = &load->branch[v];
-            if (!branch->grown && (next < 0 || branch->way < load->branch[next].way))
+            if (!branch->grown && (next < 0 || load->way[v] < load->way[next]))
                 next = v;
         }
         if (next < 0)
@@ -255,9 +238,8 @@ static int32_t meeting_height(const yb_map_t *map, const yb_load_t *load, yb_ind
         }
         z[k] = map->vertex[from].z_q8;
     }
-    int32_t at = z[0] == z[1]
-                     ? (z[0] + h) / 2
-                     : z[0] + (int32_t)((int64_t)(z[1] - z[0]) * way[0] / (way[0] + way[1]));
+    int32_t at =
+        z[0] == z[1] ? (z[0] + h) / 2 : z[0] + fix_scale(z[1] - z[0], way[0], way[0] + way[1]);
     return keep_off(at, h, z[0], fix_abs(h - z[0]) / 8);
 }
 
@@ -267,7 +249,7 @@ static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_in
     int32_t way = 0;
     yb_triangle_t first = first_at(map, load, v);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        yb_index_t side = map->triangle[t][next3(corner_of(map, t, v))];
+        yb_index_t side = corner_after(map, t, v);
         if (side < load->first_skeleton && map->vertex[side].z_q8 == map->vertex[v].z_q8)
             way = fix_max(way, edge_length(map, v, side));
     }
@@ -280,19 +262,19 @@ static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_in
 static void measure_ways(const yb_map_t *map, yb_load_t *load)
 {
     for (int v = load->first_skeleton; v < map->vertex_count; v++)
-        load->branch[v].way = 0;
+        load->way[v] = 0;
     for (int i = map->vertex_count - 1; i >= load->first_skeleton; i--) {
         yb_index_t v = (yb_index_t)i;
         yb_branch_t *branch = &load->branch[v];
-        if (branch->way == 0 && !meets(load, v))
-            branch->way = way_to_contour(map, load, v);
+        if (load->way[v] == 0 && !meets(load, v))
+            load->way[v] = way_to_contour(map, load, v);
         for (int k = 0; k < 2; k++) {
             yb_index_t p = k == 0 ? branch->parent : branch->other;
             if (p == v || p < load->first_skeleton || meets(load, p))
                 continue;
-            uint32_t way = branch->way + (uint32_t)edge_length(map, p, v);
-            if (way > load->branch[p].way) {
-                load->branch[p].way = way;
+            uint32_t way = load->way[v] + (uint32_t)edge_length(map, p, v);
+            if (way > load->way[p]) {
+                load->way[p] = way;
                 load->branch[p].end = meets(load, v) ? v : branch->end == v ? p : branch->end;
             }
         }
@@ -315,7 +297,7 @@ static void set_heights(yb_map_t *map, yb_load_t *load)
         int32_t from = map->vertex[branch->parent].z_q8;
         int32_t to = map->vertex[branch->end].z_q8; /* h, if that is v itself */
         int32_t step = edge_length(map, branch->parent, v);
-        int32_t z = from + (int32_t)((int64_t)(to - from) * step / (step + (int64_t)branch->way));
+        int32_t z = from + fix_scale(to - from, step, step + (int32_t)load->way[v]);
         bool begins = branch->parent < load->first_skeleton;
         map->vertex[v].z_q8 = keep_off(z, h, from, begins ? fix_abs(h - from) / 8 : 0);
     }

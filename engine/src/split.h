@@ -2,7 +2,7 @@
 #ifndef YB_SPLIT_H
 #define YB_SPLIT_H
 
-#include <stdint.h>
+#include <yamabiko/rom.h>
 
 /* split_child[pattern][k]: corners of child k of a triangle whose edges of `pattern` are split (bit
  * i: the edge from corner i to corner i + 1). 0 to 2 are the corners, 3 to 5 the midpoints of edges
@@ -12,6 +12,6 @@ enum {
     SPLIT_END = 6,
     SPLIT_CHILDREN = 4
 };
-extern const uint8_t split_child[8][SPLIT_CHILDREN][3];
+extern const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM;
 
 #endif

@@ -9,7 +9,7 @@
 
 /* --- How high -------------------------------------------------------------------------------- */
 
-/* What load->scratch says of a region. */
+/* What load->ground says of a region. */
 enum {
     FLAT = 1,  /* of one height */
     BESIDE = 2 /* shares a line with the region in question */
@@ -20,14 +20,14 @@ static bool look_beside(yb_load_t *load, yb_index_t region)
 {
     bool sloping = false;
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] &= FLAT;
+        load->ground[r] &= FLAT;
     for (int c = 0; c < load->contour_count; c++) {
         const yb_contour_t *line = &load->contour[c];
         if (line->left == line->right || (line->left != region && line->right != region))
             continue;
         yb_index_t other = line->left == region ? line->right : line->left;
-        sloping = sloping || (load->scratch[other] & FLAT) == 0;
-        load->scratch[other] |= BESIDE;
+        sloping = sloping || (load->ground[other] & FLAT) == 0;
+        load->ground[other] |= BESIDE;
     }
     return sloping;
 }
@@ -39,7 +39,7 @@ static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, int3
 {
     int32_t rise = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3 && (load->scratch[load->region[t]] & BESIDE) != 0; i++) {
+        for (int i = 0; i < 3 && (load->ground[load->region[t]] & BESIDE) != 0; i++) {
             int32_t up = h - map->vertex[map->triangle[t][i]].z_q8;
             bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
             if (up != 0 && nearer)
@@ -50,18 +50,20 @@ static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, int3
 }
 
 /* What a flat region is like, and the ground that its lines look at on their outer sides. Lengths
- * are in 1/256 step, areas twice as large in square 1/64 steps: below 2^30 all together.
+ * are in 1/256 step: lines that do not cross, on a lattice of 1/16 step, stay below 2^30 all
+ * together. Areas are twice as large, in square 1/64 steps: the frame's is below 2^29, and no
+ * triangle is counted more than three times.
  */
 typedef struct {
-    int64_t area;
-    int64_t length;  /* of its lines */
-    int64_t sloping; /* of those of their segments beyond which there is another height */
+    int32_t area;
+    int32_t length;  /* of its lines */
+    int32_t sloping; /* of those of their segments beyond which there is another height */
+    int32_t outside; /* area of the triangles beyond those segments */
     int64_t rise;    /* sum of length times rise towards the region: below 2^17 · 2^18 · 2^16 */
     int64_t change;  /* the same without signs */
-    int64_t outside; /* area of the triangles beyond those segments */
 } surroundings_t;
 
-static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
+static void look_round(const yb_map_t *map, const yb_load_t *load, yb_index_t region,
                        surroundings_t *found)
 {
     *found = (surroundings_t){0};
@@ -71,18 +73,19 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
         const yb_index_t *v = map->triangle[t];
         found->area += orientation(map, v[0], v[1], v[2]);
         for (int i = 0; i < 3; i++) {
-            if (mark_of(load, t, i) != YB_RULE_CONTOUR)
+            if (!is_marked(load, t, i))
                 continue;
             int apex = 0;
             const yb_index_t *w = map->triangle[across(map, load, t, i, &apex)];
             int32_t up = map->vertex[v[i]].z_q8 - map->vertex[w[apex]].z_q8;
-            int64_t length = edge_length(map, v[i], v[next3(i)]);
+            int32_t length = edge_length(map, v[i], v[next3(i)]);
             found->length += length;
             if (up == 0)
                 continue;
+            int64_t rise = (int64_t)length * up;
             found->sloping += length;
-            found->rise += length * up;
-            found->change += length * fix_abs(up);
+            found->rise += rise;
+            found->change += rise < 0 ? -rise : rise;
             found->outside += orientation(map, w[0], w[1], w[2]);
         }
     }
@@ -93,8 +96,7 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
  * But between 1/8 and 7/8 of an interval, the mean rise outside; and by half of it where there is
  * no slope to go by. 0: there is no other height round about.
  */
-static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region,
-                           int32_t h)
+static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_index_t region, int32_t h)
 {
     surroundings_t round;
     look_round(map, load, region, &round);
@@ -104,10 +106,11 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_triang
     }
     int32_t interval = (int32_t)(round.change / round.sloping);
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
-     * than enough; area / length is below 2^33, where a short line bounds much of the frame. */
+     * than enough; area / length is below 2^32, where a short line bounds much of the frame. */
     int64_t slope_q11 = round.change * 128 / round.outside;
-    slope_q11 = slope_q11 > 1 << 20 ? 1 << 20 : slope_q11;
-    int64_t rise = (slope_q11 * (round.area * 8 / round.length)) >> 11;
+    const int32_t steepest_q11 = (int32_t)1 << 20;
+    slope_q11 = slope_q11 > steepest_q11 ? steepest_q11 : slope_q11;
+    int64_t rise = (slope_q11 * ((uint32_t)round.area * 8 / (uint32_t)round.length)) >> 11;
     int32_t least = fix_max(interval >> 3, 1);
     int32_t most = fix_max(interval - (interval >> 3), 1);
     rise = rise < least ? least : rise > most ? most : rise;
@@ -125,14 +128,16 @@ typedef struct {
     bool beyond;
 } spot_t;
 
-/* Is the angle at corner i acute? Plan differences are below 2^16: each product below 2^32. */
+/* Is the angle at corner i acute? Plan differences in 1/64 steps are below 2^14: each product below
+ * 2^28.
+ */
 static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
 {
     const yb_vertex_t *a = &map->vertex[map->triangle[t][next3(i)]];
     const yb_vertex_t *b = &map->vertex[map->triangle[t][prev3(i)]];
     const yb_vertex_t *c = &map->vertex[map->triangle[t][i]];
-    return (int64_t)(a->x_q8 - c->x_q8) * (b->x_q8 - c->x_q8) +
-               (int64_t)(a->y_q8 - c->y_q8) * (b->y_q8 - c->y_q8) >
+    return (fix_minus(a->x_q8, c->x_q8) >> 2) * (fix_minus(b->x_q8, c->x_q8) >> 2) +
+               (fix_minus(a->y_q8, c->y_q8) >> 2) * (fix_minus(b->y_q8, c->y_q8) >> 2) >
            0;
 }
 
@@ -140,22 +145,21 @@ static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
  * the chord of an empty circle. If just one of the two triangles at it is acute, the circle's
  * centre lies in that one, and so does the place. A region of one triangle has its place inside.
  */
-static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_triangle_t region)
+static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_index_t region)
 {
     spot_t spot = {.beyond = true};
-    mesh_edge_t best = {0};
+    uint32_t best = 0;
     int32_t widest = -1;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3 && load->region[t] == region; i++) {
-            bool alone = load->neighbour[t][i] >= NO_TRIANGLE;
+            bool alone = entry_of(load, t, i) >= NO_TRIANGLE;
             if (alone && !spot.beyond)
                 continue; /* there is a better kind of edge */
-            mesh_edge_t edge = mesh_edge_at(map, t, i);
-            int32_t wide = edge_length(map, edge.low, edge.high);
-            if (alone != spot.beyond || wide > widest ||
-                (wide == widest && mesh_edge_before(&edge, &best))) {
+            uint32_t key = mesh_edge_key(map, t, i);
+            int32_t wide = edge_length(map, map->triangle[t][i], map->triangle[t][next3(i)]);
+            if (alone != spot.beyond || wide > widest || (wide == widest && key < best)) {
                 spot = (spot_t){t, i, alone};
-                best = edge;
+                best = key;
                 widest = wide;
             }
         }
@@ -179,18 +183,18 @@ static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot
     const yb_vertex_t *a = &map->vertex[v[spot->edge]];
     const yb_vertex_t *b = &map->vertex[v[next3(spot->edge)]];
     const yb_vertex_t *c = &map->vertex[v[prev3(spot->edge)]];
-    int32_t x = (a->x_q8 + b->x_q8) >> 1;
-    int32_t y = (a->y_q8 + b->y_q8) >> 1;
+    uint16_t x = fix_middle(a->x_q8, b->x_q8);
+    uint16_t y = fix_middle(a->y_q8, b->y_q8);
     if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
-        x = (x + c->x_q8) >> 1;
-        y = (y + c->y_q8) >> 1;
+        x = fix_middle(x, c->x_q8);
+        y = fix_middle(y, c->y_q8);
     }
     yb_index_t p = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, (uint16_t)x, (uint16_t)y, z) != YB_OK)
+    if (mesh_add_vertex(map, load, x, y, z) != YB_OK)
         return YB_ERR_LIMIT;
     mesh_split(map, load, spot->t, spot->beyond ? -1 : spot->edge, p);
     mesh_legalise(map, load, p);
-    yb_index_t region = (yb_index_t)load->region[load->star[p]];
+    yb_index_t region = load->region[load->star[p]];
     load->contour[load->contour_count + load->summit_count++] =
         (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
     return YB_OK;
@@ -199,10 +203,10 @@ static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot
 yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
-        load->scratch[r] = FLAT;
+        load->ground[r] = FLAT;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (!is_flat(map, t))
-            load->scratch[load->region[t]] = 0;
+            load->ground[load->region[t]] = 0;
     }
     /* A region may have to wait until its neighbour has a second height: round and round until
      * nothing changes. What stays flat then is a map of one height. */
@@ -211,7 +215,7 @@ yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
         for (int c = 0; c < 2 * load->contour_count; c++) {
             const yb_contour_t *contour = &load->contour[c >> 1];
             yb_index_t region = (c & 1) == 0 ? contour->left : contour->right;
-            if ((load->scratch[region] & FLAT) == 0 || !look_beside(load, region))
+            if ((load->ground[region] & FLAT) == 0 || !look_beside(load, region))
                 continue;
             int32_t h = map->vertex[contour->first].z_q8;
             spot_t spot = widest_place(map, load, region);
@@ -220,7 +224,7 @@ yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
                 rise = -rise;
             if (add_summit(map, load, &spot, h + rise) != YB_OK)
                 return YB_ERR_LIMIT;
-            load->scratch[region] = 0;
+            load->ground[region] = 0;
             changed = true;
         }
     }

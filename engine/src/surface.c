@@ -3,7 +3,7 @@
 #include "relief.h"
 #include "split.h"
 
-const uint8_t split_child[8][SPLIT_CHILDREN][3] = {
+const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
     {{SPLIT_END}},
     {{0, 3, 2}, {3, 1, 2}, {SPLIT_END}},
     {{1, 4, 0}, {4, 2, 0}, {SPLIT_END}},
@@ -36,11 +36,11 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
     for (int i = 0; i < 3; i++) {
         const yb_vertex_t *a = corner[i];
         const yb_vertex_t *b = corner[i == 2 ? 0 : i + 1];
-        int32_t dx = b->x_q8 - a->x_q8;
-        int32_t dy = b->y_q8 - a->y_q8;
+        int32_t dx = fix_minus(b->x_q8, a->x_q8);
+        int32_t dy = fix_minus(b->y_q8, a->y_q8);
         if (fix_length(dx, dy) > longest && relief_splits(dx, dy)) {
             relief_middle(map, a, b, &middle[i]);
-            pattern |= (uint8_t)(1 << i);
+            pattern = (uint8_t)(pattern | 1 << i);
         }
     }
     return pattern;
@@ -49,8 +49,10 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
 static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],
                  const uint8_t child[3], const yb_vertex_t *picked[3])
 {
-    for (int i = 0; i < 3; i++)
-        picked[i] = child[i] < 3 ? corner[child[i]] : &middle[child[i] - 3];
+    for (int i = 0; i < 3; i++) {
+        uint8_t k = yb_rom_u8(&child[i]);
+        picked[i] = k < 3 ? corner[k] : &middle[k - 3];
+    }
 }
 
 void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
@@ -67,7 +69,7 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
             fn(context, level->corner[0], level->corner[1], level->corner[2]);
         /* Up to the next level that has a child left, and down into it. */
         const uint8_t *child = split_child[level->pattern][0];
-        while (level->child == SPLIT_CHILDREN || *child == SPLIT_END) {
+        while (level->child == SPLIT_CHILDREN || yb_rom_u8(child) == SPLIT_END) {
             if (level == levels)
                 return;
             level--;
@@ -78,33 +80,35 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
     }
 }
 
-/* Twice the signed area of the plan triangle a, b, (x, y): below 2^33. */
-static int64_t side(const yb_vertex_t *a, const yb_vertex_t *b, int32_t x, int32_t y)
+/* How near a place is to each corner: twice the signed area, below 2^33, that it makes with the two
+ * others in plan. Is it in the triangle?
+ */
+static bool weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int64_t weight[3])
 {
-    return (int64_t)(b->x_q8 - a->x_q8) * (y - a->y_q8) -
-           (int64_t)(b->y_q8 - a->y_q8) * (x - a->x_q8);
-}
-
-static bool holds(const yb_vertex_t *const p[3], int32_t x, int32_t y)
-{
-    return side(p[0], p[1], x, y) >= 0 && side(p[1], p[2], x, y) >= 0 &&
-           side(p[2], p[0], x, y) >= 0;
+    bool inside = true;
+    for (int i = 0; i < 3; i++) {
+        const yb_vertex_t *a = p[i == 2 ? 0 : i + 1];
+        const yb_vertex_t *b = p[i == 0 ? 2 : i - 1];
+        weight[i] = (int64_t)fix_minus(b->x_q8, a->x_q8) * (y - a->y_q8) -
+                    (int64_t)fix_minus(b->y_q8, a->y_q8) * (x - a->x_q8);
+        inside = inside && weight[i] >= 0;
+    }
+    return inside;
 }
 
 /* Height of the plane through three points at a place inside them. Heights are below 2^19 and areas
  * below 2^33: each product is below 2^52.
  */
-static int32_t plane_height(const yb_vertex_t *const p[3], int32_t x, int32_t y)
+static int32_t plane_height(const yb_vertex_t *const p[3], const int64_t weight[3])
 {
-    int64_t a = side(p[1], p[2], x, y);
-    int64_t b = side(p[2], p[0], x, y);
-    int64_t c = side(p[0], p[1], x, y);
-    int64_t whole = a + b + c; /* no triangle of a map is flat in plan: above 0 */
-    if (whole <= 0)
+    int64_t whole = weight[0] + weight[1] + weight[2];
+    if (whole <= 0) /* no triangle of a map is flat in plan */
         return p[0]->z_q8;
-    int64_t sum = a * p[0]->z_q8 + b * p[1]->z_q8 + c * p[2]->z_q8;
+    int64_t sum = 0;
+    for (int i = 0; i < 3; i++)
+        sum += weight[i] * p[i]->z_q8;
     /* Rounded down, for heights below zero too. */
-    return (int32_t)(sum >= 0 ? sum / whole : -((whole - 1 - sum) / whole));
+    return (int32_t)((sum >= 0 ? sum : sum - (whole - 1)) / whole);
 }
 
 int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
@@ -113,21 +117,22 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
     int32_t y = fix_min(y_q8, map->north_q8);
     yb_vertex_t corner[3] = {{0}};
     const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
+    int64_t weight[3] = {0};
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         for (int i = 0; i < 3; i++)
             corner[i] = map->vertex[map->triangle[t][i]];
-        if (holds(p, x, y))
+        if (weigh(p, x, y, weight))
             break; /* the triangles tile the frame: one does */
     }
     for (;;) {
         yb_vertex_t middle[3];
         uint8_t pattern = split_edges(map, p, YB_REFERENCE_Q8, middle);
         if (pattern == 0)
-            return plane_height(p, x, y);
+            return plane_height(p, weight);
         const yb_vertex_t *child[3];
         for (int k = 0; k < SPLIT_CHILDREN; k++) {
             pick(p, middle, split_child[pattern][k], child);
-            if (holds(child, x, y))
+            if (weigh(child, x, y, weight))
                 break;
         }
         yb_vertex_t next[3] = {*child[0], *child[1], *child[2]};

@@ -11,25 +11,40 @@
  */
 #include "mesh.h"
 
-static void put_triangle(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_index_t a,
-                         yb_index_t b, yb_index_t c)
+/* A triangle, and what lies across its edges. */
+typedef struct {
+    yb_index_t v[3];
+    yb_entry_t across[3];
+} facet_t;
+
+/* Triangle t as it is, its edge `edge` being the first. */
+static void take_facet(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int edge,
+                       facet_t *facet)
 {
-    map->triangle[t][0] = a;
-    map->triangle[t][1] = b;
-    map->triangle[t][2] = c;
-    load->star[a] = load->star[b] = load->star[c] = t;
+    yb_across_t word = load->across[t];
+    for (int k = 0; k < 3; k++, edge = next3(edge)) {
+        facet->v[k] = map->triangle[t][edge];
+        facet->across[k] = (yb_entry_t)(word >> (edge * ENTRY_BITS)) & ENTRY_ALL;
+    }
 }
 
-/* Edge i of t looks at `entry` (a triangle and a mark), and that triangle back at t. */
-static void link_edge(const yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i,
-                      yb_entry_t entry)
+/* Makes it triangle t, at which those across then look back, with the same marks. Of some facets
+ * that look at each other the last one puts right what the earlier ones could not know.
+ */
+static void put_facet(yb_map_t *map, yb_load_t *load, yb_triangle_t t, const facet_t *facet)
 {
-    load->neighbour[t][i] = entry;
-    yb_triangle_t u = entry & NO_TRIANGLE;
-    if (u == NO_TRIANGLE)
-        return;
-    int j = corner_of(map, u, map->triangle[t][next3(i)]);
-    load->neighbour[u][j] = (yb_entry_t)(t | (entry & ~(yb_entry_t)NO_TRIANGLE));
+    yb_across_t word = 0;
+    for (int k = 2; k >= 0; k--) {
+        yb_entry_t entry = facet->across[k];
+        yb_triangle_t u = entry & NO_TRIANGLE;
+        word = word << ENTRY_BITS | entry;
+        map->triangle[t][k] = facet->v[k];
+        load->star[facet->v[k]] = t;
+        if (u != NO_TRIANGLE)
+            set_entry(load, u, corner_of(map, u, facet->v[next3(k)]),
+                      (yb_entry_t)(t | (entry & ENTRY_MARK)));
+    }
+    load->across[t] = word;
 }
 
 /* Replaces the common edge ab of t and its neighbour by the other diagonal dc of their quad. With
@@ -37,23 +52,23 @@ static void link_edge(const yb_map_t *map, yb_load_t *load, yb_triangle_t t, int
  */
 static void flip(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int i)
 {
-    yb_triangle_t u = neighbour_of(load, t, i);
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    yb_index_t c = map->triangle[t][prev3(i)];
-    int j = corner_of(map, u, b);
-    yb_index_t d = map->triangle[u][prev3(j)];
-    yb_entry_t bc = load->neighbour[t][next3(i)];
-    yb_entry_t ca = load->neighbour[t][prev3(i)];
-    yb_entry_t ad = load->neighbour[u][next3(j)];
-    yb_entry_t db = load->neighbour[u][prev3(j)];
-    put_triangle(map, load, t, a, d, c);
-    put_triangle(map, load, u, d, b, c);
-    link_edge(map, load, t, 0, ad);
-    link_edge(map, load, t, 2, ca);
-    link_edge(map, load, u, 0, db);
-    link_edge(map, load, u, 1, bc);
-    link_edge(map, load, t, 1, u);
+    facet_t p; /* a b c */
+    facet_t q; /* b a d */
+    take_facet(map, load, t, i, &p);
+    yb_triangle_t u = p.across[0];
+    yb_entry_t bc = p.across[1];
+    take_facet(map, load, u, corner_of(map, u, p.v[1]), &q);
+    p.v[1] = q.v[2];
+    p.across[0] = q.across[1];
+    p.across[1] = u;
+    put_facet(map, load, t, &p);
+    q.v[1] = q.v[0];
+    q.v[0] = q.v[2];
+    q.v[2] = p.v[2];
+    q.across[0] = q.across[2];
+    q.across[1] = bc;
+    q.across[2] = t;
+    put_facet(map, load, u, &q);
 }
 
 /* Does d lie inside the circle through a, b, c (counter-clockwise)? Differences in 1/64 steps are
@@ -66,8 +81,8 @@ static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_
     int32_t x[3];
     int32_t y[3];
     for (int i = 0; i < 3; i++) {
-        x[i] = (map->vertex[corner[i]].x_q8 >> 2) - (o->x_q8 >> 2);
-        y[i] = (map->vertex[corner[i]].y_q8 >> 2) - (o->y_q8 >> 2);
+        x[i] = fix_minus(map->vertex[corner[i]].x_q8, o->x_q8) >> 2;
+        y[i] = fix_minus(map->vertex[corner[i]].y_q8, o->y_q8) >> 2;
     }
     int64_t sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -85,13 +100,11 @@ static bool in_circle(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_
 /* Is edge i of t to be flipped? */
 static bool illegal(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
 {
-    yb_entry_t entry = load->neighbour[t][i];
+    yb_entry_t entry = entry_of(load, t, i);
     if (entry >= NO_TRIANGLE) /* the frame, or marked */
         return false;
     const yb_index_t *v = map->triangle[t];
-    int apex = 0;
-    yb_triangle_t u = across(map, load, t, i, &apex);
-    return in_circle(map, v[i], v[next3(i)], v[prev3(i)], map->triangle[u][apex]);
+    return in_circle(map, v[i], v[next3(i)], v[prev3(i)], apex_across(map, load, t, i));
 }
 
 /* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
@@ -101,7 +114,7 @@ static bool illegal(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t,
 void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
 {
     yb_triangle_t t = first_at(map, load, p);
-    yb_index_t first_spoke = map->triangle[t][next3(corner_of(map, t, p))];
+    yb_index_t first_spoke = corner_after(map, t, p);
     for (;;) {
         int opposite = next3(corner_of(map, t, p));
         if (illegal(map, load, t, opposite)) {
@@ -109,8 +122,7 @@ void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p)
             continue;
         }
         yb_triangle_t left = turn_left(map, load, t, p);
-        if (left == NO_TRIANGLE ||
-            map->triangle[left][next3(corner_of(map, left, p))] == first_spoke)
+        if (left == NO_TRIANGLE || corner_after(map, left, p) == first_spoke)
             return;
         t = left;
     }
@@ -144,48 +156,41 @@ static bool same_place(const yb_map_t *map, yb_index_t a, yb_index_t b)
 }
 
 /* Splits t = (a b c) at p into (a b p), (b c p), (c a p); edge 0 of t is `edge`, where p may lie
- * on it. Then ab p is flat: it is flipped away, or, on the frame, dropped.
+ * on it. Then ab p is flat: it is flipped away, or, on the frame, left out.
  */
 void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_index_t p)
 {
-    int i = edge < 0 ? 0 : edge;
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    yb_index_t c = map->triangle[t][prev3(i)];
-    yb_entry_t ab = load->neighbour[t][i];
-    yb_entry_t bc = load->neighbour[t][next3(i)];
-    yb_entry_t ca = load->neighbour[t][prev3(i)];
-    yb_triangle_t u = map->triangle_count++;
-    load->region[u] = load->region[t];
-    put_triangle(map, load, t, b, c, p);
-    put_triangle(map, load, u, c, a, p);
-    link_edge(map, load, t, 0, bc);
-    link_edge(map, load, u, 0, ca);
-    link_edge(map, load, t, 1, u);
-    if (edge >= 0 && ab == NO_TRIANGLE) {
-        load->neighbour[t][2] = NO_TRIANGLE;
-        load->neighbour[u][1] = NO_TRIANGLE;
-        return;
+    facet_t f;
+    take_facet(map, load, t, edge < 0 ? 0 : edge, &f);
+    bool on_side = edge >= 0 && f.across[0] == NO_TRIANGLE;
+    yb_triangle_t part[3] = {NO_TRIANGLE, t, map->triangle_count++};
+    if (!on_side)
+        part[0] = map->triangle_count++;
+    for (int k = on_side ? 1 : 0; k < 3; k++) {
+        facet_t facet;
+        facet.v[0] = f.v[k];
+        facet.v[1] = f.v[next3(k)];
+        facet.v[2] = p;
+        facet.across[0] = f.across[k];
+        facet.across[1] = part[next3(k)];
+        facet.across[2] = part[prev3(k)];
+        load->region[part[k]] = load->region[t];
+        put_facet(map, load, part[k], &facet);
     }
-    yb_triangle_t w = map->triangle_count++;
-    load->region[w] = load->region[t];
-    put_triangle(map, load, w, a, b, p);
-    link_edge(map, load, w, 0, ab);
-    link_edge(map, load, w, 1, t);
-    link_edge(map, load, w, 2, u);
-    if (edge >= 0)
-        flip(map, load, w, 0);
+    if (edge >= 0 && !on_side)
+        flip(map, load, part[0], 0);
 }
 
 static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
 {
     const yb_index_t *corner = load->corner;
     map->triangle_count = 2;
-    put_triangle(map, load, 0, corner[0], corner[1], corner[2]);
-    put_triangle(map, load, 1, corner[0], corner[2], corner[3]);
-    load->neighbour[0][0] = load->neighbour[0][1] = NO_TRIANGLE;
-    load->neighbour[1][1] = load->neighbour[1][2] = NO_TRIANGLE;
-    link_edge(map, load, 0, 2, 1);
+    for (int t = 0; t < 2; t++) {
+        facet_t half = {{corner[0], corner[t + 1], corner[t + 2]},
+                        {NO_TRIANGLE, NO_TRIANGLE, NO_TRIANGLE}};
+        half.across[t == 0 ? 2 : 0] = t == 0 ? 1 : 0;
+        put_facet(map, load, (yb_triangle_t)t, &half);
+    }
     mesh_legalise(map, load, corner[0]);
     mesh_legalise(map, load, corner[1]);
     yb_triangle_t t = 0;
@@ -214,13 +219,12 @@ static yb_status_t insert_all(yb_map_t *map, yb_load_t *load)
 static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t from, yb_index_t to)
 {
     yb_triangle_t first = first_at(map, load, v);
-    while (map->triangle[first][next3(corner_of(map, first, v))] != from)
+    while (corner_after(map, first, v) != from)
         first = turn_left(map, load, first, v);
     yb_triangle_t t = first;
     for (;;) {
-        int at = corner_of(map, t, v);
-        yb_index_t s = map->triangle[t][next3(at)];
-        yb_index_t e = map->triangle[t][prev3(at)];
+        yb_index_t s = corner_after(map, t, v);
+        yb_index_t e = corner_before(map, t, v);
         if (e == to) {
             if (t == first)
                 return;
@@ -228,13 +232,13 @@ static void clear_fan(yb_map_t *map, yb_load_t *load, yb_index_t v, yb_index_t f
             continue;
         }
         yb_triangle_t after = turn_left(map, load, t, v);
-        yb_index_t f = map->triangle[after][prev3(corner_of(map, after, v))];
+        yb_index_t f = corner_before(map, after, v);
         if (orientation(map, s, e, f) <= 0) {
             t = after;
             continue;
         }
         /* Edge e-v of t; t = (e v s) becomes (e f s), its neighbour (f v s). */
-        flip(map, load, t, prev3(at));
+        flip(map, load, t, corner_of(map, t, e));
         if (t == first)
             first = after;
         t = first;
@@ -249,9 +253,8 @@ static yb_triangle_t towards(const yb_map_t *map, const yb_load_t *load, yb_inde
 {
     yb_triangle_t first = first_at(map, load, a);
     for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, a, first)) {
-        int at = corner_of(map, t, a);
-        yb_index_t s = map->triangle[t][next3(at)];
-        yb_index_t e = map->triangle[t][prev3(at)];
+        yb_index_t s = corner_after(map, t, a);
+        yb_index_t e = corner_before(map, t, a);
         *is_edge = s == b || e == b;
         if (*is_edge)
             return t;
@@ -267,18 +270,17 @@ static yb_triangle_t towards(const yb_map_t *map, const yb_load_t *load, yb_inde
 static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t t, yb_index_t a,
                                   yb_index_t b)
 {
-    int at = corner_of(map, t, a);
-    int edge = next3(at);
-    yb_index_t right = map->triangle[t][edge];
-    yb_index_t left = map->triangle[t][prev3(at)];
+    yb_index_t right = corner_after(map, t, a);
+    yb_index_t left = corner_before(map, t, a);
+    int edge = corner_of(map, t, right);
     yb_index_t right_before = a;
     yb_index_t left_before = a;
     for (;;) {
-        if (mark_of(load, t, edge) != YB_RULE_NONE)
+        if (is_marked(load, t, edge))
             return YB_ERR_CORRUPT; /* two contours cross */
-        yb_triangle_t u = neighbour_of(load, t, edge);
-        int j = corner_of(map, u, left);
-        yb_index_t apex = map->triangle[u][prev3(j)];
+        int corner = 0;
+        t = across(map, load, t, edge, &corner);
+        yb_index_t apex = map->triangle[t][corner];
         int32_t side = apex == b ? 0 : orientation(map, a, b, apex);
         if (side == 0 && apex != b)
             return YB_ERR_CORRUPT; /* a contour runs through a point of another */
@@ -290,17 +292,16 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t 
             clear_fan(map, load, right, apex, right_before);
             return YB_OK;
         }
-        /* u = (left, right, apex): go on through the edge from the apex to the other side. */
+        /* t = (left, right, apex): go on through the edge from the apex to the other side. */
         if (side > 0) {
             left_before = left;
             left = apex;
-            edge = next3(j);
+            edge = prev3(corner);
         } else {
             right_before = right;
             right = apex;
-            edge = prev3(j);
+            edge = corner;
         }
-        t = u;
     }
 }
 
@@ -308,8 +309,7 @@ static yb_status_t narrow_channel(yb_map_t *map, yb_load_t *load, yb_triangle_t 
  * vertex off the channel's sides (those edges that it had across the channel are flipped to its
  * neighbours), until none is left between a and b. Each vertex leaves once: it always ends.
  */
-yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b,
-                            yb_rule_t mark)
+yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_index_t b)
 {
     for (;;) {
         bool is_edge = false;
@@ -317,11 +317,11 @@ yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a, yb_ind
         if (t == NO_TRIANGLE)
             return YB_ERR_CORRUPT;
         if (is_edge) {
+            facet_t facet;
             int i = corner_of(map, t, a);
-            if (map->triangle[t][next3(i)] != b)
-                i = prev3(i);
-            link_edge(map, load, t, i,
-                      (yb_entry_t)(neighbour_of(load, t, i) | (yb_entry_t)mark << MARK_SHIFT));
+            take_facet(map, load, t, 0, &facet);
+            facet.across[facet.v[next3(i)] == b ? i : prev3(i)] |= ENTRY_MARK;
+            put_facet(map, load, t, &facet);
             return YB_OK;
         }
         if (narrow_channel(map, load, t, a, b) != YB_OK)
@@ -336,7 +336,7 @@ bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_inde
     if (t == NO_TRIANGLE || is_edge)
         return is_edge;
     int edge = next3(corner_of(map, t, a));
-    while (mark_of(load, t, edge) == YB_RULE_NONE) {
+    while (!is_marked(load, t, edge)) {
         int corner = 0;
         t = across(map, load, t, edge, &corner);
         yb_index_t apex = map->triangle[t][corner];
@@ -357,14 +357,16 @@ static yb_status_t force_contours(yb_map_t *map, yb_load_t *load)
         for (int k = 0; k < edges && contour->count > 1; k++) {
             yb_index_t a = (yb_index_t)(contour->first + k);
             yb_index_t b = (yb_index_t)(contour->first + (k + 1) % contour->count);
-            if (mesh_force_edge(map, load, a, b, YB_RULE_CONTOUR) != YB_OK)
+            if (mesh_force_edge(map, load, a, b) != YB_OK)
                 return YB_ERR_CORRUPT;
         }
     }
     return YB_OK;
 }
 
-/* Flips until no edge is illegal. Each flip lowers the lifted surface, so this ends. */
+/* Flips until no edge is illegal: each is looked at from its first triangle alone. Each flip lowers
+ * the lifted surface, so this ends.
+ */
 void mesh_make_delaunay(yb_map_t *map, yb_load_t *load)
 {
     bool flipped = true;
@@ -372,7 +374,7 @@ void mesh_make_delaunay(yb_map_t *map, yb_load_t *load)
         flipped = false;
         for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
             for (int i = 0; i < 3; i++) {
-                if (illegal(map, load, t, i)) {
+                if (entry_of(load, t, i) > t && illegal(map, load, t, i)) {
                     flip(map, load, t, i);
                     flipped = true;
                 }

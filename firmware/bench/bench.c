@@ -11,6 +11,7 @@
  * and the program then ends the emulator by semihosting. tests/budget reads this.
  */
 #include "board.h"
+#include "report.h"
 #include "standard_views.h"
 #include "yamabiko/yamabiko.h"
 
@@ -18,13 +19,6 @@
 #ifndef BENCH_BAND_BYTES
 #error "BENCH_BAND_BYTES: the board's CMake file gives it"
 #endif
-
-#define PAINT 0xA5C35A3Cu
-/* What a call may push between asking for the frame address and painting. */
-#define PAINT_MARGIN_WORDS 16
-
-void yb_mark_begin(void);
-void yb_mark_end(void);
 
 static yb_map_t map;
 static union {
@@ -34,67 +28,6 @@ static union {
         uint32_t band[BENCH_BAND_BYTES / 4];
     } drawing;
 } work;
-
-/* The two texts differ, so that the compiler cannot make one function of both. */
-__attribute__((noinline)) void yb_mark_begin(void)
-{
-    __asm volatile("@ a region begins" ::: "memory");
-}
-
-__attribute__((noinline)) void yb_mark_end(void)
-{
-    __asm volatile("@ a region ends" ::: "memory");
-}
-
-static void say(const char *text)
-{
-    while (*text != '\0')
-        yb_board_write(NULL, *text++);
-}
-
-static void say_number(uint32_t number)
-{
-    char digits[11];
-    size_t at = sizeof digits - 1;
-    digits[at] = '\0';
-    do {
-        digits[--at] = (char)('0' + number % 10u);
-        number /= 10u;
-    } while (number > 0);
-    say(&digits[at]);
-}
-
-/* WORD NAME NUMBER; the name comes in two parts for those that are made of two. */
-static void say_line(const char *word, const char *name, const char *rest, uint32_t number)
-{
-    say(word);
-    say(" ");
-    say(name);
-    say(rest);
-    say(" ");
-    say_number(number);
-    say("\r\n");
-}
-
-/* --- The stack -------------------------------------------------------------------------------- */
-
-static uint32_t *painted_to;
-
-__attribute__((noinline)) static void paint_stack(void)
-{
-    painted_to = (uint32_t *)__builtin_frame_address(0) - PAINT_MARGIN_WORDS;
-    for (volatile uint32_t *at = yb_stack_limit; at < painted_to; at++)
-        *at = PAINT;
-}
-
-/* Bytes below the caller that were used since paint_stack. */
-static uint32_t stack_used(void)
-{
-    const volatile uint32_t *at = yb_stack_limit;
-    while (at < painted_to && *at == PAINT)
-        at++;
-    return (uint32_t)(painted_to - at) * 4u + PAINT_MARGIN_WORDS * 4u;
-}
 
 /* --- What is measured ------------------------------------------------------------------------- */
 
@@ -142,11 +75,11 @@ static void draw(const setting_t *setting, const yb_view_t *view)
 
 static void measure_frame(const setting_t *setting, int which)
 {
-    say("region frame ");
-    say(setting->name);
-    say(" ");
-    say(yb_standard_view_name(which));
-    say("\r\n");
+    report_text("region frame ");
+    report_text(setting->name);
+    report_text(" ");
+    report_text(yb_standard_view_name(which));
+    report_text("\r\n");
     yb_mark_begin();
     draw(setting, &views[which]);
     yb_mark_end();
@@ -154,44 +87,44 @@ static void measure_frame(const setting_t *setting, int which)
 
 static void measure_frames(const setting_t *setting)
 {
-    say_line("size", "band-", setting->name, band_bytes(setting));
-    paint_stack();
+    report_line("size", "band-", setting->name, band_bytes(setting));
+    report_paint_stack();
     for (int which = 0; which < setting->views; which++)
         measure_frame(setting, which);
-    say_line("stack", "frame-", setting->name, stack_used());
+    report_line("stack", "frame-", setting->name, report_stack_used());
 }
 
 static bool measure_load(void)
 {
-    say("region load\r\n");
-    paint_stack();
+    report_text("region load\r\n");
+    report_paint_stack();
     yb_mark_begin();
     yb_map_begin(&map, &work.load);
     yb_status_t status = YB_MORE;
     for (size_t i = 0; i < YB_SLOT_BYTES && status == YB_MORE; i++)
         status = yb_map_feed(&map, &work.load, &yb_slot[i], 1);
     yb_mark_end();
-    say_line("stack", "load", "", stack_used());
+    report_line("stack", "load", "", report_stack_used());
     if (status != YB_OK) {
-        say("error ");
-        say(yb_status_text(status));
-        say("\r\n");
+        report_text("error ");
+        report_text(yb_status_text(status));
+        report_text("\r\n");
     }
     return status == YB_OK;
 }
 
 static void measure_all(void)
 {
-    say_line("size", "yb_map_t", "", sizeof(yb_map_t));
-    say_line("size", "yb_load_t", "", sizeof(yb_load_t));
-    say_line("size", "yb_frame_t", "", sizeof(yb_frame_t));
+    report_line("size", "yb_map_t", "", sizeof(yb_map_t));
+    report_line("size", "yb_load_t", "", sizeof(yb_load_t));
+    report_line("size", "yb_frame_t", "", sizeof(yb_frame_t));
     /* What the markers themselves cost. */
-    say("region nothing\r\n");
+    report_text("region nothing\r\n");
     yb_mark_begin();
     yb_mark_end();
     if (!measure_load())
         return;
-    say_line("size", "vertices", "", map.vertex_count);
+    report_line("size", "vertices", "", map.vertex_count);
     for (int which = 0; which < YB_STANDARD_VIEWS; which++) {
         yb_view_init(&views[which], &map);
         yb_standard_view_set(&views[which], &map, (yb_standard_view_t)which);
@@ -214,7 +147,7 @@ int main(void)
 {
     yb_board_init();
     measure_all();
-    say("done\r\n");
+    report_text("done\r\n");
     leave();
     return 0;
 }

@@ -16,6 +16,7 @@
 
 #include "fnv.h"
 #include "mesh_check.h"
+#include "views.h"
 
 enum {
     WIDTH = 320,
@@ -100,56 +101,10 @@ static void write_picture(const char *name, const char *what)
     (void)fclose(file);
 }
 
-/* --- Views ------------------------------------------------------------------------------------ */
-
-static void from_north_west(yb_view_t *view)
-{
-    yb_view_orbit(view, &map, YB_DEGREES(135), YB_DEGREES(30), 307);
-}
-
-static void from_far_above(yb_view_t *view)
-{
-    yb_view_orbit(view, &map, YB_DEGREES(200), YB_DEGREES(75), 420);
-    view->walls = false;
-}
-
-static void straight_down(yb_view_t *view)
-{
-    yb_view_orbit(view, &map, YB_DEGREES(30), YB_DEGREES(90), 350);
-}
-
-static void flooded(yb_view_t *view)
-{
-    yb_view_orbit(view, &map, YB_DEGREES(300), YB_DEGREES(25), 280);
-    view->water_q8 = map.low_q8 + (map.high_q8 - map.low_q8) * 2 / 5;
-    view->exaggerate_q8 = 512;
-}
-
-static void on_foot(yb_view_t *view)
-{
-    view->eye_q8[0] = map.east_q8 / 5;
-    view->eye_q8[1] = map.north_q8 / 4;
-    view->eye_q8[2] =
-        yb_map_height(&map, (uint16_t)view->eye_q8[0], (uint16_t)view->eye_q8[1]) + 600;
-    view->look_q8[0] = map.east_q8 * 3 / 5;
-    view->look_q8[1] = map.north_q8 / 2;
-    view->look_q8[2] = view->eye_q8[2];
-    yb_view_sun(view, YB_DEGREES(200), YB_DEGREES(40));
-}
-
-static const struct {
-    const char *name;
-    void (*set)(yb_view_t *view);
-} views[] = {
-    {"orbit", from_north_west}, {"above", from_far_above}, {"down", straight_down},
-    {"flood", flooded},         {"foot", on_foot},
-};
-
-static uint64_t frame_hash(size_t which, const yb_screen_t *screen)
+static uint64_t frame_hash(int which, const yb_screen_t *screen)
 {
     yb_view_t view;
-    yb_view_init(&view, &map);
-    views[which].set(&view);
+    golden_view_set(which, &view, &map);
     yb_frame_begin(&frame, &map, &view, screen);
     size_t pitch = yb_screen_pitch(screen);
     yb_band_t band = {0, screen->height, depth, pixels, pitch};
@@ -184,10 +139,10 @@ static bool find_lines(const char *path, lines_t *lines)
     name_of(path, code);
     add_line(lines, code, "mesh", mesh_hash(&map));
     add_line(lines, code, "surface", surface_hash());
-    for (size_t k = 0; k < 2 * sizeof views / sizeof *views; k++) {
+    for (int k = 0; k < 2 * GOLDEN_VIEWS; k++) {
         char what[40];
         const yb_screen_t *screen = &screens[k % 2];
-        (void)snprintf(what, sizeof what, "%s-%dx%d", views[k / 2].name, screen->width,
+        (void)snprintf(what, sizeof what, "%s-%dx%d", golden_view_name(k / 2), screen->width,
                        screen->height);
         add_line(lines, code, what, frame_hash(k / 2, screen));
         if (pictures != NULL)

@@ -145,6 +145,7 @@ class Setup(unittest.TestCase):
         self.debian("ID=fedora\nVERSION_ID=40\n")
         (self.bin / "dpkg-query").unlink()
         for name in ("gcc make cmake ninja pkg-config arm-none-eabi-gcc qemu-system-arm "
+                     "riscv64-unknown-elf-gcc avr-gcc qemu-system-avr powerpc-linux-gnu-gcc qemu-ppc "
                      "python3 clang llvm-symbolizer g++ clang-format clang-tidy cppcheck "
                      "shellcheck man groff flex bison bc perl xz").split():
             self.command(name, "")

@@ -122,14 +122,14 @@ static void shuffle(rng_t *rng)
     }
     for (int t = 0; t < (int)map.triangle_count; t++) {
         int to = place[t];
-        load.region[to] = (yb_triangle_t)region[had.region[t]];
+        load.region[to] = (yb_index_t)region[had.region[t]];
         for (int i = 0; i < 3; i++) {
             int from = (i + turned[t]) % 3;
-            int across_it = had.neighbour[t][from] & NO_TRIANGLE;
-            int mark = had.neighbour[t][from] & ~NO_TRIANGLE;
+            int across_it = neighbour_of(&had, (yb_triangle_t)t, from);
+            int mark = is_marked(&had, (yb_triangle_t)t, from) ? ENTRY_MARK : 0;
             int across_now = across_it == NO_TRIANGLE ? NO_TRIANGLE : place[across_it];
             map.triangle[to][i] = was.triangle[t][from];
-            load.neighbour[to][i] = (yb_entry_t)(across_now | mark);
+            set_entry(&load, (yb_triangle_t)to, i, (yb_entry_t)(across_now | mark));
         }
     }
     for (int v = 0; v < map.vertex_count; v++)

@@ -15,7 +15,7 @@
  * Memory. The engine allocates nothing, keeps no globals, never recurses and uses no floating
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (4.9 KB with 255 vertices)
- *   yb_load_t   working memory of decoding: until YB_OK           (8.5 KB)
+ *   yb_load_t   working memory of decoding: until YB_OK           (5.5 KB)
  *   yb_frame_t  working memory of drawing: one frame at a time    (6.3 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
  *
@@ -80,9 +80,12 @@ enum {
 
 /* --- Limits ----------------------------------------------------------------------------------- */
 
-#define YB_MAX_TRIANGLES (2 * YB_MAX_VERTICES)
+/* Of n vertices at least four lie on the frame: they make at most 2n - 6 triangles. */
+#define YB_MAX_TRIANGLES (2 * YB_MAX_VERTICES - 6)
 /* Contours of a map, summits among them. A code has at most 255. */
 #define YB_MAX_CONTOURS YB_MAX_VERTICES
+/* Regions of a map: one more than lines, which have two points or more. */
+#define YB_MAX_REGIONS (YB_MAX_VERTICES / 2 + 1)
 /* Longest legal code of the paper profile, in bytes: 255 summits. */
 #define YB_MAX_CODE_BYTES 1299
 /* |height| of a decoded vertex: 512 steps, twice the width of the map. */
@@ -112,16 +115,17 @@ const char *yb_status_text(yb_status_t status);
 
 /* --- The map ---------------------------------------------------------------------------------- */
 
-/* Numbers of vertices, contours and regions; of triangles; a triangle across an edge, with marks.
+/* Numbers of vertices, contours and regions; of triangles; what lies across a triangle's three
+ * edges, three numbers of triangles with a mark each.
  */
 #if YB_MAX_VERTICES <= 255
 typedef uint8_t yb_index_t;
 typedef uint16_t yb_triangle_t;
-typedef uint16_t yb_entry_t;
+typedef uint32_t yb_across_t;
 #else
 typedef uint16_t yb_index_t;
 typedef uint32_t yb_triangle_t;
-typedef uint32_t yb_entry_t;
+typedef uint64_t yb_across_t;
 #endif
 
 typedef struct {
@@ -155,12 +159,12 @@ typedef struct {
     uint8_t hurst_q8m1;      /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
     bool smooth;             /* midpoints follow the slopes of the ends */
     bool detail;             /* midpoints move by noise; clear it to get the smooth part alone */
+    yb_vertex_t vertex[YB_MAX_VERTICES];
+    yb_index_t triangle[YB_MAX_TRIANGLES][3];
     /* Per length class: the noise's scale (q8 height for one unit of the hash sum is scale/2^9),
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
-    yb_vertex_t vertex[YB_MAX_VERTICES];
-    yb_index_t triangle[YB_MAX_TRIANGLES][3];
 } yb_map_t;
 
 /* One contour of a code, as decoded. */
@@ -179,13 +183,13 @@ typedef struct {
     int16_t length, place;
 } yb_ring_t;
 
-/* A point of a skeleton. Private to loading. */
+/* A point of a skeleton, as large as a contour. Private to loading. */
 typedef struct {
     yb_index_t parent; /* the point it was reached from */
     yb_index_t other;  /* the second such point, where two branches meet; else itself */
     yb_index_t end;    /* the meeting point at its farthest end; itself: that is a dead end */
+    yb_index_t unused;
     bool grown;
-    uint32_t way; /* from the branch's beginning; later, to its farthest end */
 } yb_branch_t;
 
 /* Working memory of decoding. contour[0 .. contour_count) and region_count stay valid after YB_OK
@@ -213,7 +217,7 @@ typedef struct {
     uint16_t vertices_promised;
     uint16_t section_at, section_size, size;
     yb_status_t result;
-    int16_t x, y, start_x, start_y, way, length, height;
+    int16_t x, y, start_x, start_y, start_way, length, height;
     yb_ring_t last; /* step */
     uint32_t range, code, cell;
     int32_t base;
@@ -227,18 +231,30 @@ typedef struct {
     int32_t corner_height[4];
     int32_t frame_height;
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
-    yb_contour_t contour[YB_MAX_CONTOURS];
-    /* private: the triangulation */
-    yb_entry_t neighbour[YB_MAX_TRIANGLES][3];
-    yb_triangle_t region[YB_MAX_TRIANGLES];
-    /* private: the rules */
-    yb_index_t scratch[YB_MAX_CONTOURS + 1]; /* of a region */
-    yb_index_t group[YB_MAX_CONTOURS];
+    /* A contour has a vertex of its own with a number no smaller, and a skeleton's points come
+     * after all others: contours and, from first_skeleton on, these points never want the same
+     * place. */
     union {
+        yb_contour_t contour[YB_MAX_CONTOURS];
         yb_branch_t branch[YB_MAX_VERTICES];
-        uint16_t model[128]; /* of the compact profile */
     };
+    /* private: the triangulation */
+    yb_across_t across[YB_MAX_TRIANGLES];
+    yb_index_t region[YB_MAX_TRIANGLES];
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
+    /* private: what one stage alone needs; each fills it in before it reads it */
+    union {
+        uint16_t model[128];                   /* compact.c: what it has learned */
+        yb_triangle_t root[YB_MAX_TRIANGLES];  /* regions.c: union-find */
+        uint8_t ground[YB_MAX_REGIONS];        /* summits.c: what a region is like */
+        struct {                               /* links.c, saddles.c */
+            yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
+            yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
+            yb_index_t group[YB_MAX_CONTOURS]; /* lines that are joined */
+        };
+        /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
+        uint32_t way[YB_MAX_VERTICES];
+    };
 } yb_load_t;
 
 /* Why a point or an edge of the mesh is there (docs/SPEC.md 2). */
@@ -264,8 +280,8 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
 /* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
- * Cost: a hundred-byte code takes about 0.6 M instructions on a Cortex-M3, 251 scattered summits
- * 3.3 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * Cost: a hundred-byte code takes about 1.8 M instructions on a Cortex-M3, 251 scattered summits
+ * 3.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);

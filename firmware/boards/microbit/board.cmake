@@ -1,4 +1,6 @@
-yb_firmware(yamabiko-microbit boards/microbit/main.c)
+yb_board(boards/microbit/board.c boards/microbit/microbit.ld)
+yb_viewer(boards/microbit/main.c)
 
 # 16 KB hold the viewer's band and no more.
 yb_bench(2560)
+yb_golden(8)

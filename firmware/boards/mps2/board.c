@@ -1,5 +1,6 @@
-/* Arm's MPS2 with the AN385 image: a Cortex-M3 with megabytes of RAM, for measuring what the
- * handheld has no room for. Console on the CMSDK's UART 0.
+/* Arm's MPS2 with one of the images AN385 (Cortex-M3), AN386 (Cortex-M4) or AN500 (Cortex-M7):
+ * megabytes of RAM, for measuring what small boards have no room for. Console on the CMSDK's UART
+ * 0.
  */
 #include "board.h"
 
@@ -16,7 +17,7 @@
 #define CORE_HZ 25000000u
 #define BAUD 115200u
 
-const char yb_board_name[] = "mps2-an385";
+const char yb_board_name[] = YB_BOARD_NAME;
 
 void yb_board_init(void)
 {

@@ -1,0 +1,57 @@
+#include "views.h"
+
+static void from_north_west(yb_view_t *view, const yb_map_t *map)
+{
+    yb_view_orbit(view, map, YB_DEGREES(135), YB_DEGREES(30), 307);
+}
+
+static void from_far_above(yb_view_t *view, const yb_map_t *map)
+{
+    yb_view_orbit(view, map, YB_DEGREES(200), YB_DEGREES(75), 420);
+    view->walls = false;
+}
+
+static void straight_down(yb_view_t *view, const yb_map_t *map)
+{
+    yb_view_orbit(view, map, YB_DEGREES(30), YB_DEGREES(90), 350);
+}
+
+static void flooded(yb_view_t *view, const yb_map_t *map)
+{
+    yb_view_orbit(view, map, YB_DEGREES(300), YB_DEGREES(25), 280);
+    view->water_q8 = map->low_q8 + (map->high_q8 - map->low_q8) * 2 / 5;
+    view->exaggerate_q8 = 512;
+}
+
+static void on_foot(yb_view_t *view, const yb_map_t *map)
+{
+    const uint32_t east = map->east_q8;
+    const uint32_t north = map->north_q8;
+    view->eye_q8[0] = (int32_t)(east / 5);
+    view->eye_q8[1] = (int32_t)(north / 4);
+    view->eye_q8[2] =
+        yb_map_height(map, (uint16_t)view->eye_q8[0], (uint16_t)view->eye_q8[1]) + 600;
+    view->look_q8[0] = (int32_t)(east * 3 / 5);
+    view->look_q8[1] = (int32_t)(north / 2);
+    view->look_q8[2] = view->eye_q8[2];
+    yb_view_sun(view, YB_DEGREES(200), YB_DEGREES(40));
+}
+
+static const struct {
+    const char *name;
+    void (*set)(yb_view_t *view, const yb_map_t *map);
+} views[GOLDEN_VIEWS] = {
+    {"orbit", from_north_west}, {"above", from_far_above}, {"down", straight_down},
+    {"flood", flooded},         {"foot", on_foot},
+};
+
+const char *golden_view_name(int which)
+{
+    return views[which].name;
+}
+
+void golden_view_set(int which, yb_view_t *view, const yb_map_t *map)
+{
+    yb_view_init(view, map);
+    views[which].set(view, map);
+}
