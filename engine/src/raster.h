@@ -20,27 +20,20 @@ typedef struct {
     int32_t first_row, end_row; /* of the screen */
 } raster_t;
 
-/* A corner on the screen: 1/16 pixel, x to the right and y down, and 1/depth. */
-typedef struct {
-    int32_t x_q4, y_q4;
-    int32_t near;
-} raster_point_t;
-
 /* Clears the band's depths and fills it with one pixel value. */
 void raster_clear(const raster_t *raster, uint16_t pixel);
 
 /* A triangle ready to be filled. */
 typedef struct {
-    raster_point_t p[3]; /* clockwise, as y points down */
-    raster_area_t area;  /* twice its area */
-    int32_t x0, x1;      /* columns and rows that it may touch, ends excluded */
-    int32_t y0, y1;
+    const yb_spot_t *p[3]; /* clockwise as seen, the topmost first */
+    int32_t y0, y1;        /* rows of the band that it may touch, the end excluded */
 } raster_setup_t;
 
-/* Looks at a triangle: false if it is seen from behind or no pixel of the band is near it. Its
- * coordinates lie within one screen size of the screen.
+/* Looks at a triangle, counter-clockwise from the front and within a screen size of the screen:
+ * false if it is seen from behind or the box round it meets no pixel's centre in the band.
  */
-bool raster_setup(const raster_t *raster, const raster_point_t corner[3], raster_setup_t *setup);
+bool raster_setup(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                  const yb_spot_t *c, raster_setup_t *setup);
 
 /* Draws it in one pixel value where it is nearer than what is there. A pixel is covered if its
  * centre is inside, or on a top or left edge: pixels along the common edge of two triangles are

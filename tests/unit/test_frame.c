@@ -170,10 +170,10 @@ static void find_box(double p[3][3], box_t *box)
     for (int i = 0; i < 3; i++) {
         const double *a = p[i];
         const double *b = p[(i + 1) % 3];
-        if (a[2] >= frame.near_q8)
+        if (a[2] >= frame.near)
             widen(box, a);
-        if ((a[2] >= frame.near_q8) != (b[2] >= frame.near_q8)) {
-            double part = (frame.near_q8 - a[2]) / (b[2] - a[2]);
+        if ((a[2] >= frame.near) != (b[2] >= frame.near)) {
+            double part = (frame.near - a[2]) / (b[2] - a[2]);
             double cut[3];
             for (int k = 0; k < 3; k++)
                 cut[k] = a[k] + part * (b[k] - a[k]);
@@ -187,17 +187,27 @@ static double within(double a, double low, double high)
     return fmin(fmax(a, low), high);
 }
 
+/* A corner in view space: where its spot says, if it has one. */
+static void see_corner(const yb_point_t *corner, double p[3])
+{
+    camera_point_t place;
+    camera_view(&frame, corner->place, corner->top_q8, &place);
+    p[0] = place.right;
+    p[1] = place.up;
+    p[2] = place.depth;
+    if (corner->spot.near == 0)
+        return;
+    p[0] = (corner->spot.x_q4 - frame.screen.width * 8) * p[2] / frame.focal_q4;
+    p[1] = (frame.screen.height * 8 - corner->spot.y_q4) * p[2] / frame.focal_q4;
+}
+
 /* Marks the rays that meet the front of a leaf beyond the near distance. */
 static void cast(void *context, const yb_point_t *const corner[3])
 {
     const rays_t *rays = context;
     double p[3][3];
     for (int i = 0; i < 3; i++) {
-        camera_point_t place;
-        camera_place(&frame, corner[i], &place);
-        p[i][0] = place.right_q8;
-        p[i][1] = place.up_q8;
-        p[i][2] = place.depth_q8;
+        see_corner(corner[i], p[i]);
     }
     double volume = determinant(p[0], p[1], p[2]);
     if (volume <= 0)
@@ -218,7 +228,7 @@ static void cast(void *context, const yb_point_t *const corner[3])
             if (a < 0 || b < 0 || c < 0)
                 continue;
             double far = volume / (a + b + c) * frame.focal_q4;
-            if (far >= frame.near_q8 * 1.02 + 2)
+            if (far >= frame.near * 1.02 + 2)
                 rays->met[y * rays->across + x] = true;
         }
     }
@@ -232,7 +242,7 @@ static bool all_ground(int i)
 {
     static bool met[CLOSE * CLOSE];
     memset(met, 0, sizeof met);
-    double radius = 0.15 + frame.focal_q4 / 16.0 / frame.near_q8;
+    double radius = 0.15 + frame.focal_q4 / 16.0 / frame.near;
     rays_t rays = {.left = i % CRACK_WIDTH + 0.5 - radius,
                    .top = i / CRACK_WIDTH + 0.5 - radius,
                    .pitch = 2 * radius / (CLOSE - 1),
