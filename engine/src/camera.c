@@ -176,6 +176,7 @@ static void find_lift(yb_frame_t *frame)
         part[2] = (part[2] + 1) >> 1;
         shift--;
     }
+    frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
     frame->lift = (int16_t)part[0];
     frame->sway_x_q4 = (int32_t)part[1];
     frame->sway_y_q4 = (int32_t)part[2];
@@ -275,7 +276,7 @@ void camera_see(const yb_frame_t *frame, yb_point_t *point)
 {
     camera_point_t at;
     camera_view(frame, point->place, point->top_q8, &at);
-    point->spot = (yb_spot_t){0, 0, 0};
+    point->spot = (yb_spot_t){0, INT32_MIN, 0};
     if (at.depth < frame->near || fix_abs(at.right) >= 2 * at.depth ||
         fix_abs(at.up) >= 2 * at.depth)
         return;
@@ -295,7 +296,7 @@ void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
     point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
     point->z_q8 = v->z_q8;
     point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
-    point->spot = (yb_spot_t){seen->x_q4, seen->y_q4, seen->near};
+    point->spot = (yb_spot_t){seen->x_q4, seen->near > 0 ? seen->y_q4 : INT32_MIN, seen->near};
 }
 
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)

@@ -8,77 +8,71 @@
 
 /* --- Edges ------------------------------------------------------------------------------------ */
 
+static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)
+{
+    return relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope),
+                        relief_dx(a->place, b->place), relief_dy(a->place, b->place));
+}
+
 /* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
 static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b, int class)
 {
-    int32_t highest = fix_max(a->z_q8, b->z_q8);
-    if (highest >= frame->view.water_q8)
-        return false;
-    int32_t rise = fix_abs(relief_bulge(
-        relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope),
-        relief_dx(a->place, b->place), relief_dy(a->place, b->place)));
+    int32_t rise = fix_abs(bulge_of(a, b));
     const relief_bound_t bound = {rise + (rise >> 1) + 16, class};
-    return highest + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
+    return fix_max(a->z_q8, b->z_q8) + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
 }
 
 /* The nearest of an edge's ends, as 1/depth. Beyond the near distance, for what is behind it. */
-static uint32_t nearest(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+static int32_t nearest(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
-    int32_t depth = INT32_MAX;
-    const yb_point_t *end[2] = {a, b};
-    for (int i = 0; i < 2; i++) {
-        camera_point_t at;
-        camera_view(frame, end[i]->place, end[i]->top_q8, &at);
-        depth = fix_min(depth, at.depth);
-    }
-    return (uint32_t)camera_near(frame, fix_max(depth, frame->near));
+    camera_point_t at[2];
+    camera_view(frame, a->place, a->top_q8, &at[0]);
+    camera_view(frame, b->place, b->top_q8, &at[1]);
+    return camera_near(frame, fix_max(fix_min(at[0].depth, at[1].depth), frame->near));
 }
 
-/* How often an edge is halved, with REFINE_AGAIN if its halves are to be asked.
- *
- * length_q7 has 16 bits and 1/depth too. Where both ends have spots and 1/depth changes by so little
- * that the middle of the edge, halved and halved again, is seen in the middle of its spots to a
- * fraction of frame->longest, the one number will do for all of the edge.
+/* Length and 1/depth have 16 bits each. With 1/depth from v to w > v, the middle of an edge of s
+ * pixels is seen s/2 (w - v) / (w + v) from the middle of its spots. Where w - v is no more than a
+ * quarter of w, nor s (w - v) more than 2 w, that is at most 16/7/4 pixel, and a quarter of it for
+ * its halves: 0.77 in all (SPARE_Q4), and one number will do for all of the edge.
  */
-static uint8_t ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   const yb_edge_t *edge)
+yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                     yb_edge_t edge)
 {
-    uint32_t parity = a->place ^ b->place;
-    parity |= parity >> 16;
-    uint32_t near = (uint32_t)fix_max(a->spot.near, b->spot.near);
-    uint32_t change = (uint32_t)fix_abs(a->spot.near - b->spot.near);
-    bool seen = a->spot.near > 0 && b->spot.near > 0;
+    int32_t change = fix_abs(a->spot.near - b->spot.near);
+    int32_t near = fix_max(a->spot.near, b->spot.near);
+    bool seen = change < near;
     if (!seen)
         near = nearest(frame, a, b);
-    uint32_t size = edge->length_q7 * near;
-    uint8_t often = 0;
+    edge &= 0xffffff;
+    uint32_t size = (edge & 0xffff) * (uint32_t)near;
+    if (size <= frame->longest)
+        return edge;
+    uint32_t parity = a->place ^ b->place;
+    parity |= parity >> 16;
+    yb_edge_t asked = edge;
     for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
-        often++;
-    if (often == 0 || drowned(frame, a, b, edge->class))
-        return 0;
-    return seen && change << (often + 2) <= near ? often : 1 | REFINE_AGAIN;
+        asked += REFINE_ONCE;
+    if (asked == edge || (fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
+                          drowned(frame, a, b, refine_class(edge))))
+        return edge;
+    int32_t wide = fix_abs(a->spot.x_q4 - b->spot.x_q4);
+    int32_t high = fix_abs(a->spot.y_q4 - b->spot.y_q4);
+    return seen && change << 2 <= near && (fix_max(wide, high) >> 4) * change <= 2 * near
+               ? asked
+               : edge | REFINE_AGAIN;
 }
 
-bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   yb_edge_t *edge)
-{
-    if (edge->splits == REFINE_ASK)
-        edge->splits = ask(frame, a, b, edge);
-    return edge->splits != 0;
-}
-
-void refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                 yb_edge_t *edge)
+yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
     /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
-    edge->length_q7 = (uint16_t)fix_length(across, along);
-    edge->class = (uint8_t)relief_class(dx, dy);
-    edge->splits = REFINE_ASK;
-    edge->splits = ask(frame, a, b, edge);
+    return refine_ask(frame, a, b,
+                      (yb_edge_t)fix_length(across, along) |
+                          (yb_edge_t)(relief_class(dx, dy) + 4) << 16);
 }
 
 /* Each half's mean of two numbers, rounded down. */
@@ -93,19 +87,18 @@ void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_
     const yb_map_t *map = frame->map;
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
-    middle->place = mean2(a->place, b->place);
-    middle->slope = mean2(a->slope, b->slope);
     int32_t z = (a->z_q8 + b->z_q8) >> 1;
     if (map->smooth)
         z += relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy);
-    z += relief_rough(map, middle->place, edge.class, dx, dy, b->z_q8 - a->z_q8);
+    middle->place = mean2(a->place, b->place);
+    middle->slope = mean2(a->slope, b->slope);
+    z += relief_rough(map, middle->place, refine_class(edge), dx, dy, b->z_q8 - a->z_q8);
     middle->z_q8 = z;
     middle->top_q8 = fix_max(z, frame->view.water_q8);
     int32_t rise = middle->top_q8 - ((a->top_q8 + b->top_q8) >> 1);
     /* Half way between the ends' spots, and up by the rise. What needs more than that, and what
      * comes to lie more than a screen size off, is placed exactly. */
-    if ((edge.splits & REFINE_AGAIN) == 0 && a->spot.near > 0 && b->spot.near > 0 &&
-        fix_abs(rise) < 1 << 14) {
+    if (edge < REFINE_AGAIN && a->spot.near > 0 && b->spot.near > 0 && fix_abs(rise) < 1 << 14) {
         int32_t near = (a->spot.near + b->spot.near) >> 1;
         int32_t turn = rise * near; /* below 2^30 */
         int32_t y = ((a->spot.y_q4 + b->spot.y_q4) >> 1) -
@@ -133,7 +126,7 @@ static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
 }
 
 enum {
-    SPARE_Q4 = 16 /* by which spots may be off where they should be */
+    SPARE_Q4 = 14 /* by which spots may be off where they should be */
 };
 
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
@@ -162,11 +155,11 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     }
 }
 
-/* For points without spots: does nothing lie inside one of the planes? Inside is across . (right,
- * up) + slope * depth - near >= 0; depth < 2^18 and |slope| <= 2 * 2^8 make 2^27.
+/* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0; depth
+ * < 2^18 and |slope| <= 2 * 2^8 make 2^27.
  */
-static bool misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
-                   int count, int32_t stray)
+static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
+                          const yb_point_t *const *p, int count, int32_t stray)
 {
     camera_point_t at[4];
     for (int k = 0; k < count; k++)
@@ -178,39 +171,46 @@ static bool misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
             most = fix_max(most, plane->right * at[k].right + plane->up * at[k].up +
                                      ((at[k].depth * plane->slope_q8) >> 8) - plane->near);
         /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
-        if (most < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 4))
+        if (most < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12))
             return true;
     }
     return false;
 }
 
+/* The box on the screen that holds some points and what lies between them, 1/16 pixel. */
 typedef struct {
-    int32_t left, right, top, bottom; /* 1/16 pixel */
+    int32_t left, right, top, bottom;
+    int32_t near; /* greatest 1/depth */
 } box_t;
 
-/* The box that holds some points, each of which may move by `stray` in height, and what lies
- * between them. False: they have no spots, or may come nearer by more than an eighth.
- */
-static bool find_box(const yb_frame_t *frame, const yb_point_t *const *p, int count, int32_t stray,
-                     box_t *box)
+/* False: not all of them have spots. */
+static inline bool find_box(const yb_point_t *const *p, int count, box_t *box)
 {
-    int32_t near = 0;
-    *box = (box_t){INT32_MAX, INT32_MIN, INT32_MAX, INT32_MIN};
-    for (int k = 0; k < count; k++) {
+    box->near = p[0]->spot.near;
+    box->left = box->right = p[0]->spot.x_q4;
+    box->top = box->bottom = p[0]->spot.y_q4;
+    for (int k = 1; k < count; k++) {
         const yb_spot_t *spot = &p[k]->spot;
-        if (spot->near == 0)
-            return false;
-        near = fix_max(near, spot->near);
+        box->near = fix_max(box->near, spot->near);
         box->left = fix_min(box->left, spot->x_q4);
         box->right = fix_max(box->right, spot->x_q4);
         box->top = fix_min(box->top, spot->y_q4);
         box->bottom = fix_max(box->bottom, spot->y_q4);
     }
-    if (stray >= 1 << 14 || (stray * near) >> 3 > frame->most_bend)
+    return box->top != INT32_MIN;
+}
+
+/* Widens it for points that may move by `stray`. False: they may come nearer by more than an
+ * eighth.
+ */
+static bool widen_box(const yb_frame_t *frame, int32_t stray, box_t *box)
+{
+    if (stray >= 1 << 14 || (stray * box->near) >> 3 > frame->most_bend)
         return false;
-    int32_t sway = ((stray * near) >> 10) + 1;
-    int32_t x = (sway * frame->sway_x_q4 >> frame->lift_shift) + SPARE_Q4;
-    int32_t y = (sway * frame->sway_y_q4 >> frame->lift_shift) + SPARE_Q4;
+    int32_t sway = ((stray * box->near) >> 10) + 1;
+    int32_t spare = SPARE_Q4 + (box->near * frame->spare_q4 >> 16);
+    int32_t x = (sway * frame->sway_x_q4 >> frame->lift_shift) + spare;
+    int32_t y = (sway * frame->sway_y_q4 >> frame->lift_shift) + spare;
     box->left -= x;
     box->right += x;
     box->top -= y;
@@ -218,49 +218,99 @@ static bool find_box(const yb_frame_t *frame, const yb_point_t *const *p, int co
     return true;
 }
 
-refine_where_t refine_where(const yb_frame_t *frame, const refine_view_t *view,
-                            const yb_point_t *const *p, int count, int32_t stray)
+static inline bool box_misses(const refine_view_t *view, const box_t *box)
+{
+    return box->bottom < view->top_q4 || box->top > view->bottom_q4 ||
+           box->right < view->left_q4 || box->left > view->right_q4;
+}
+
+bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
+                   int count, int32_t stray)
 {
     box_t box;
     if (view == NULL)
-        return REFINE_BOTH;
-    if (!find_box(frame, p, count, stray, &box))
-        return misses(frame, view, p, count, stray) ? REFINE_OUT : REFINE_BOTH;
-    if (box.right < view->left_q4 || box.left > view->right_q4 || box.bottom < view->top_q4 ||
-        box.top > view->bottom_q4)
-        return REFINE_OUT;
-    return box.left > view->left_q4 && box.right < view->right_q4 && box.top > view->top_q4 &&
-                   box.bottom < view->bottom_q4
-               ? REFINE_IN
-               : REFINE_BOTH;
+        return false;
+    if (!find_box(p, count, &box) || !widen_box(frame, stray, &box))
+        return misses_planes(frame, view, p, count, stray);
+    return box_misses(view, &box);
+}
+
+/* Is nothing that a level can become in the view? Most levels lie in it as they are. */
+static inline bool level_misses(const yb_frame_t *frame, const refine_view_t *view,
+                                const yb_level_t *level)
+{
+    box_t box;
+    if (find_box(level->point, 3, &box) && !box_misses(view, &box))
+        return false;
+    return refine_misses(frame, view, level->point, 3, refine_stray(frame, level));
+}
+
+/* How far refinement can move a point of a triangle, of which the edges of level->pattern are
+ * split: by their midpoints now, and by what its parts do then. No part has a longer edge than
+ *
+ *     the halves, the edges left whole, and where two are split the mean of the third and one of
+ *     them: any other line to a midpoint is no longer than the longer of two sides beside it.
+ *
+ * None of it comes nearer by more than an eighth; else the caller has to know of no limit.
+ */
+static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, int32_t near)
+{
+    uint32_t part = 0;
+    uint32_t most = 0;
+    uint32_t whole = 0;
+    int32_t bulge = 0;
+    int longest = 0;
+    int longest_split = 0;
+    for (int i = 0; i < 3; i++) {
+        uint32_t length = refine_length(level->edge[i]);
+        int class = refine_class(level->edge[i]);
+        bool split = (level->pattern & 1 << i) != 0;
+        most = length > most ? length : most;
+        longest = fix_max(longest, class);
+        if (split) {
+            length >>= 1;
+            longest_split = fix_max(longest_split, class);
+        } else {
+            whole = length;
+        }
+        part = length > part ? length : part;
+        bulge = fix_max(bulge,
+                        fix_abs(bulge_of(level->point[i], level->point[i == 2 ? 0 : i + 1])));
+    }
+    if (level->pattern != 7 && (level->pattern & (level->pattern - 1)) != 0)
+        part = (most + whole) >> 1 > part ? (most + whole) >> 1 : part;
+    /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
+     * levels adds at most as many units. */
+    relief_bound_t bound = {bulge + (bulge >> 1) + 16, longest};
+    int32_t now = frame->map->detail ? (frame->map->noise[longest_split] * RELIEF_HASH_MOST >>
+                                        RELIEF_NOISE_SHIFT) + 1
+                                     : 0;
+    uint32_t size = (part + 1) * (uint32_t)near;
+    size += size >> 3;
+    int often = 0;
+    for (; size > frame->longest && often < 16; size >>= 1)
+        often++;
+    if (level->pattern == 7)
+        bound.longest = fix_max(longest - 4, 0);
+    return now + relief_reach(frame->map, &bound, bound.longest + 4 - 4 * often);
 }
 
 int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level)
 {
-    const yb_point_t *const *p = level->corner;
-    uint32_t longest = 0;
-    uint32_t near = 0;
-    bool seen = true;
-    bool wet = false;
-    int32_t top = INT32_MIN;
-    for (int i = 0; i < 3; i++) {
-        longest = (uint32_t)fix_max((int32_t)longest, level->edge[i].length_q7);
-        near = (uint32_t)fix_max((int32_t)near, p[i]->spot.near);
-        seen = seen && p[i]->spot.near > 0;
-        wet = wet || p[i]->z_q8 < frame->view.water_q8;
-        top = fix_max(top, p[i]->top_q8);
+    const yb_point_t *const *p = level->point;
+    int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
+    int32_t stray = 0;
+    if (level->pattern != 0) {
+        bool seen = p[0]->spot.near > 0 && p[1]->spot.near > 0 && p[2]->spot.near > 0;
+        stray = limited_stray(frame, level, seen ? near : 65535);
+        if (stray >= 1 << 14 || (stray * near) >> 3 > frame->most_bend)
+            stray = limited_stray(frame, level, 65535);
     }
-    /* How often its edges can be halved: no part has a longer edge than its whole, and none comes
-     * nearer by more than an eighth where that matters. */
-    uint32_t size = longest * (seen ? near : 65535);
-    size += size >> 3;
-    int often = 0;
-    for (; size > frame->longest; size >>= 1)
-        often++;
-    const relief_bound_t bound = {level->bulge_q8, level->longest};
-    int32_t stray = relief_reach(frame->map, &bound, level->longest + 4 - 4 * often);
     /* What is above the water may sink to it where the ground between dips under it. */
-    return wet ? fix_max(stray, top - frame->view.water_q8) : stray;
+    int32_t water = frame->view.water_q8;
+    if (p[0]->z_q8 < water || p[1]->z_q8 < water || p[2]->z_q8 < water)
+        stray = fix_max(stray, fix_max(p[0]->top_q8, fix_max(p[1]->top_q8, p[2]->top_q8)) - water);
+    return stray;
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
@@ -292,11 +342,6 @@ static const uint8_t inner_table[8][3] = {
     {0x51, 0, 0}, {0x53, 0x51, 0}, {0x54, 0x40, 0}, {0x54, 0x53, 0x43},
 };
 
-static const yb_point_t *point_of(const yb_level_t *level, int i)
-{
-    return i < 3 ? level->corner[i] : &level->middle[i - 3];
-}
-
 static inline int next_of(int i)
 {
     return i == 2 ? 0 : i + 1;
@@ -306,75 +351,53 @@ void refine_root(yb_frame_t *frame, yb_level_t *level, yb_triangle_t triangle)
 {
     for (int i = 0; i < 3; i++) {
         camera_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-        level->corner[i] = &frame->root[i];
+        level->point[i] = &frame->root[i];
     }
-    int32_t rise = 0;
-    level->longest = 0;
-    for (int i = 0; i < 3; i++) {
-        const yb_point_t *a = level->corner[i];
-        const yb_point_t *b = level->corner[next_of(i)];
-        refine_edge(frame, a, b, &level->edge[i]);
-        level->longest = (uint8_t)fix_max(level->longest, level->edge[i].class);
-        rise = fix_max(rise, fix_abs(relief_bulge(
-                                 relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope),
-                                 relief_dx(a->place, b->place), relief_dy(a->place, b->place))));
-    }
-    level->bulge_q8 = frame->map->smooth ? rise + (rise >> 1) + 16 : 16;
-    level->inside = false;
+    for (int i = 0; i < 3; i++)
+        level->edge[i] = refine_edge(frame, level->point[i], level->point[next_of(i)]);
 }
 
 uint8_t refine_pattern(const yb_frame_t *frame, yb_level_t *level)
 {
-    level->pattern = 0;
     for (int i = 0; i < 3; i++) {
-        if (refine_splits(frame, level->corner[i], level->corner[next_of(i)], &level->edge[i]))
-            level->pattern |= (uint8_t)(1 << i);
+        if (level->edge[i] >= REFINE_ASK)
+            level->edge[i] =
+                refine_ask(frame, level->point[i], level->point[next_of(i)], level->edge[i]);
     }
+    level->pattern =
+        (uint8_t)((level->edge[0] >= REFINE_ONCE ? 1 : 0) | (level->edge[1] >= REFINE_ONCE ? 2 : 0) |
+                  (level->edge[2] >= REFINE_ONCE ? 4 : 0));
     return level->pattern;
 }
 
 void refine_split(const yb_frame_t *frame, yb_level_t *level)
 {
     for (int i = 0; i < 3; i++) {
-        if ((level->pattern & 1 << i) != 0)
-            refine_middle(frame, level->corner[i], level->corner[next_of(i)], level->edge[i],
-                          &level->middle[i]);
-    }
-    for (int i = 0; i < 3; i++) {
-        uint8_t ends = inner_table[level->pattern][i];
-        if (ends == 0)
-            return;
-        const yb_point_t *a = point_of(level, ends & 15);
-        const yb_point_t *b = point_of(level, ends >> 4);
-        yb_edge_t *edge = &level->edge[3 + i];
-        if (level->pattern != 7) {
-            refine_edge(frame, a, b, edge);
+        if ((level->pattern & 1 << i) == 0)
             continue;
-        }
-        *edge = refine_half(level->edge[i]);
-        edge->splits = REFINE_ASK;
-        (void)refine_splits(frame, a, b, edge);
+        level->point[3 + i] = &level->middle[i];
+        level->edge[3 + i] = refine_half(level->edge[i]);
+        refine_middle(frame, level->point[i], level->point[next_of(i)], level->edge[i],
+                      &level->middle[i]);
+    }
+    const uint8_t *ends = inner_table[level->pattern];
+    for (int i = 0; i < 3 && ends[i] != 0; i++) {
+        const yb_point_t *a = level->point[ends[i] & 15];
+        const yb_point_t *b = level->point[ends[i] >> 4];
+        level->edge[6 + i] = level->pattern == 7
+                                 ? refine_ask(frame, a, b, refine_half(level->edge[i]))
+                                 : refine_edge(frame, a, b);
     }
 }
 
 bool refine_part(const yb_level_t *level, int k, yb_level_t *part)
 {
-    if (k == PARTS || part_table[level->pattern][k][0] == PART_END)
+    const uint8_t *table = part_table[level->pattern][k & (PARTS - 1)];
+    if (k == PARTS || table[0] == PART_END)
         return false;
-    const uint8_t *table = part_table[level->pattern][k];
     for (int i = 0; i < 3; i++) {
-        int edge = table[i] >> 4;
-        part->corner[i] = point_of(level, table[i] & 15);
-        part->edge[i] = edge < 3   ? level->edge[edge]
-                        : edge < 6 ? refine_half(level->edge[edge - 3])
-                                   : level->edge[edge - 3];
-    }
-    part->inside = level->inside;
-    part->bulge_q8 = level->bulge_q8;
-    part->longest = level->longest;
-    if (level->pattern == 7) { /* all edges are halved, and the smooth part is a parabola */
-        part->bulge_q8 = (level->bulge_q8 >> 2) + 12;
-        part->longest = (uint8_t)fix_max(level->longest - 4, 0);
+        part->point[i] = level->point[table[i] & 15];
+        part->edge[i] = level->edge[table[i] >> 4];
     }
     return true;
 }
@@ -383,14 +406,15 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
 {
     yb_level_t *level = frame->level;
     refine_root(frame, level, triangle);
+    (void)refine_pattern(frame, level);
     int32_t stray = refine_stray(frame, level);
     int32_t last = frame->screen.height - 1;
     int32_t first = 0;
     box_t box;
-    if (refine_where(frame, whole, level->corner, 3, stray) == REFINE_OUT) {
+    if (refine_misses(frame, whole, level->point, 3, stray)) {
         first = last;
         last = 0;
-    } else if (find_box(frame, level->corner, 3, stray, &box)) {
+    } else if (find_box(level->point, 3, &box) && widen_box(frame, stray, &box)) {
         first = fix_clamp(box.top >> 4, 0, last);
         last = fix_clamp(box.bottom >> 4, 0, last);
     }
@@ -400,45 +424,43 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
 
 /* --- Refinement ------------------------------------------------------------------------------- */
 
-/* Draws a triangle that is not split any more: lit only if it covers a pixel. */
+/* Draws a triangle that is not split any more. */
 static void leaf(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                  const yb_point_t *const p[3])
 {
     frame->stats.refined++;
     if (raster == NULL)
         return;
-    raster_setup_t setup;
-    if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0) {
-        if (!misses(frame, view, p, 3, 0))
+    if (fix_min(p[0]->spot.y_q4, fix_min(p[1]->spot.y_q4, p[2]->spot.y_q4)) == INT32_MIN) {
+        /* Where corners with spots lie in view space is known less well. */
+        bool far = p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0;
+        if (!far || !misses_planes(frame, view, p, 3, 0))
             frame->stats.drawn += clip_draw(frame, raster, p, shade_ground(frame, p)) ? 1 : 0;
-    } else if (raster_setup(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, &setup)) {
+        return;
+    }
+    raster_setup_t setup;
+    if (raster_setup(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, &setup)) {
         raster_fill(raster, &setup, shade_ground(frame, p));
         frame->stats.drawn++;
     }
 }
 
 /* Splits the edges of a level that look long; false if the triangle is done with. */
-static bool open_level(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                       yb_level_t *level)
+static inline bool open_level(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                              yb_level_t *level)
 {
-    level->child = 0;
-    if (refine_pattern(frame, level) != 0 && !level->inside) {
-        refine_where_t where =
-            refine_where(frame, view, level->corner, 3, refine_stray(frame, level));
-        if (where == REFINE_OUT)
+    level->part = 0;
+    if (refine_pattern(frame, level) != 0) {
+        if (level_misses(frame, view, level))
             return false;
-        level->inside = where == REFINE_IN;
-    }
-    if (level->pattern != 0 && level == &frame->level[YB_MAX_LEVELS - 1]) {
+        if (level != &frame->level[YB_MAX_LEVELS - 1]) {
+            refine_split(frame, level);
+            return true;
+        }
         frame->stats.depth_limited++;
-        level->pattern = 0;
     }
-    if (level->pattern == 0) {
-        leaf(frame, view, raster, level->corner);
-        return false;
-    }
-    refine_split(frame, level);
-    return true;
+    leaf(frame, view, raster, level->point);
+    return false;
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
@@ -451,7 +473,7 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
     for (;;) {
         if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
-        if (refine_part(level, level->child++, level + 1)) {
+        if (refine_part(level, level->part++, level + 1)) {
             level += open_level(frame, view, raster, level + 1) ? 1 : 0;
         } else {
             if (level == frame->level)

@@ -12,12 +12,30 @@
 
 #include "raster.h"
 
-/* yb_edge_t.splits: how often, or these. */
-enum {
-    REFINE_OFTEN = 0x7f, /* the bits of the number */
-    REFINE_AGAIN = 0x80, /* ask each half anew; the midpoint is placed exactly */
-    REFINE_ASK = 0xff    /* not asked yet */
-};
+/* An edge: its plan length in 1/128 step, foreshortened as the view does it, in the lower 16 bits;
+ * its length class (yb_map_t.noise) and 4 in the next 8; how often it is to be halved in the upper
+ * 8, or these.
+ */
+#define REFINE_ONCE ((yb_edge_t)1 << 24)
+#define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
+#define REFINE_ASK ((yb_edge_t)0xff << 24)   /* not asked yet */
+
+static inline uint32_t refine_length(yb_edge_t edge)
+{
+    return edge & 0xffff;
+}
+
+static inline int refine_class(yb_edge_t edge)
+{
+    return (int)(edge >> 16 & 0xff) - 4;
+}
+
+/* Either half of an edge that is split. Its class is its own only if it can be split on. */
+static inline yb_edge_t refine_half(yb_edge_t edge)
+{
+    yb_edge_t half = ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
+    return edge >= REFINE_AGAIN ? half | REFINE_ASK : half;
+}
 
 /* The pyramid that some rows of the screen are seen through: near, left, right, top, bottom. */
 enum {
@@ -41,49 +59,34 @@ typedef struct {
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view);
 
 /* An edge that is no half of another one. */
-void refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                 yb_edge_t *edge);
+yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b);
 
-/* Either half of an edge that is split. */
-static inline yb_edge_t refine_half(yb_edge_t edge)
-{
-    edge.length_q7 >>= 1;
-    edge.class = (uint8_t)(edge.class > 4 ? edge.class - 4 : 0);
-    edge.splits = (uint8_t)((edge.splits & REFINE_AGAIN) != 0 ? REFINE_ASK : edge.splits - 1);
-    return edge;
-}
+/* The edge ab, which is REFINE_ASK, with its number of halvings. */
+yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                     yb_edge_t edge);
 
-/* Settles edge->splits of the edge ab if it is REFINE_ASK. Is the edge split? */
-bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   yb_edge_t *edge);
-
-/* The midpoint of an edge that is: its place, and where it is seen. */
+/* The midpoint of an edge that is split: its place, and where it is seen. */
 void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                    yb_edge_t edge, yb_point_t *middle);
 
-/* Where a triangle, with all that it may become, lies. */
-typedef enum {
-    REFINE_OUT, /* nothing of it is in the view */
-    REFINE_IN,  /* all of it is */
-    REFINE_BOTH
-} refine_where_t;
-
-/* Of some points and what lies between them, each of which may move by `stray` in height. With view
- * NULL nothing is out.
+/* Is nothing of some points, and of what lies between them, in the view, when each may move by
+ * `stray` in height? With view NULL something is.
  */
-refine_where_t refine_where(const yb_frame_t *frame, const refine_view_t *view,
-                            const yb_point_t *const *p, int count, int32_t stray);
+bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
+                   int count, int32_t stray);
 
-/* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
+/* Height that a point of a triangle with this pattern may gain or lose until it is drawn, by
+ * refinement and water.
+ */
 int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level);
 
 /* A base triangle, as a level with its own corners in frame->root. */
 void refine_root(yb_frame_t *frame, yb_level_t *level, yb_triangle_t triangle);
 
-/* Which edges of a level are split: its pattern. */
+/* Asks what edges of a level are REFINE_ASK. Which are split: its pattern. */
 uint8_t refine_pattern(const yb_frame_t *frame, yb_level_t *level);
 
-/* The midpoints of a level's pattern, and the edges between its parts. */
+/* The midpoints of a level's pattern, and the edges of its parts. */
 void refine_split(const yb_frame_t *frame, yb_level_t *level);
 
 /* Part k of a level that is split; false: there are no more. */

@@ -61,7 +61,7 @@ static bool hidden(const yb_frame_t *frame, const refine_view_t *view, const yb_
     camera_drop(frame, a, frame->base_q8, &a_foot);
     camera_drop(frame, b, frame->base_q8, &b_foot);
     const yb_point_t *const wall[4] = {a, b, &a_foot, &b_foot};
-    return refine_where(frame, view, wall, 4, stray) == REFINE_OUT;
+    return refine_misses(frame, view, wall, 4, stray);
 }
 
 /* Refines one edge of a triangle from a to b, left to right: of the points where the parts to come
@@ -70,27 +70,30 @@ static bool hidden(const yb_frame_t *frame, const refine_view_t *view, const yb_
 static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                       yb_level_t *level, int which)
 {
+    (void)refine_pattern(frame, level);
     int32_t stray = refine_stray(frame, level);
-    yb_level_t *last = level + YB_MAX_LEVELS - 1;
-    yb_point_t from = *level->corner[which];
-    level->corner[0] = level->corner[which == 2 ? 0 : which + 1];
+    const yb_level_t *last = level + YB_MAX_LEVELS - 1;
+    yb_point_t from = *level->point[which];
+    level->point[0] = level->point[which == 2 ? 0 : which + 1];
     level->edge[0] = level->edge[which];
     for (yb_level_t *at = level;;) {
-        bool split = refine_splits(frame, &from, at->corner[0], &at->edge[0]) && at != last;
-        bool seen = (at != level && !split) || !hidden(frame, view, &from, at->corner[0], stray);
+        if (at->edge[0] >= REFINE_ASK)
+            at->edge[0] = refine_ask(frame, &from, at->point[0], at->edge[0]);
+        bool split = at->edge[0] >= REFINE_ONCE && at != last;
+        bool seen = (at != level && !split) || !hidden(frame, view, &from, at->point[0], stray);
         if (split && seen) {
-            refine_middle(frame, &from, at->corner[0], at->edge[0], &at->middle[0]);
+            refine_middle(frame, &from, at->point[0], at->edge[0], &at->middle[0]);
             at->edge[0] = refine_half(at->edge[0]);
-            at[1].corner[0] = &at->middle[0];
+            at[1].point[0] = &at->middle[0];
             at[1].edge[0] = at->edge[0];
             at++;
             continue;
         }
         if (seen)
-            draw_piece(frame, raster, &from, at->corner[0]);
+            draw_piece(frame, raster, &from, at->point[0]);
         if (at == level)
             return;
-        from = *at->corner[0];
+        from = *at->point[0];
         at--;
     }
 }

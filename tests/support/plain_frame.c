@@ -20,11 +20,13 @@ typedef struct {
  */
 bool plain_behind(const yb_frame_t *frame, const yb_level_t *level)
 {
-    int64_t stray = 2 * (int64_t)refine_stray(frame, level) + 256;
+    yb_level_t whole = *level;
+    whole.pattern = 7;
+    int64_t stray = 2 * (int64_t)refine_stray(frame, &whole) + 256;
     int64_t lift = (int64_t)abs(frame->depth_z) * frame->view.exaggerate_q8 >> 8;
     for (int i = 0; i < 3; i++) {
         camera_point_t at;
-        camera_view(frame, level->corner[i]->place, level->corner[i]->top_q8, &at);
+        camera_view(frame, level->point[i]->place, level->point[i]->top_q8, &at);
         if (at.depth + (stray * lift >> 14 >> frame->eye_shift) + 2 >= frame->near)
             return false;
     }
@@ -37,7 +39,7 @@ static void walk(walk_t *at, yb_level_t *level, int depth)
         return;
     if (depth + 1 == YB_MAX_LEVELS || refine_pattern(at->frame, level) == 0) {
         at->count++;
-        at->fn(at->context, level->corner);
+        at->fn(at->context, level->point);
         return;
     }
     refine_split(at->frame, level);

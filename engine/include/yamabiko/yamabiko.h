@@ -403,8 +403,8 @@ typedef struct {
 } yb_stats_t;
 
 /* A place on the screen: 1/16 pixel, x to the right and y down, and 1/depth, 65535 at the near
- * distance. near 0: behind that, or a screen size or more beyond the screen; then x and y mean
- * nothing. Private to the renderer, like all that follows up to yb_frame_begin.
+ * distance. near 0: behind that, or a screen size or more beyond the screen; then x is 0 and y
+ * INT32_MIN. Private to the renderer, like all that follows up to yb_frame_begin.
  */
 typedef struct {
     int32_t x_q4, y_q4;
@@ -431,23 +431,16 @@ typedef struct {
     yb_spot_t spot; /* of top_q8 */
 } yb_point_t;
 
-/* An edge of a triangle that is being refined. */
-typedef struct {
-    uint16_t length_q7; /* in plan, foreshortened as the view does */
-    uint8_t class;      /* of its plan length: see yb_map_t.noise */
-    uint8_t splits;     /* how often it is halved: see refine.h */
-} yb_edge_t;
+/* An edge of a triangle that is being refined: see refine.h. */
+typedef uint32_t yb_edge_t;
 
 /* A level of refinement: a triangle, and how it is split. */
 typedef struct {
-    const yb_point_t *corner[3];
-    yb_edge_t edge[6]; /* its own three; those between its parts */
+    const yb_point_t *point[6]; /* its corners; the midpoints of its edges */
+    yb_edge_t edge[9];          /* its own three; a half of each; those between its parts */
     yb_point_t middle[3];
-    int32_t bulge_q8; /* how far its smooth part may be from its plane */
-    uint8_t longest;  /* length class of its longest edge, or a longer one */
-    uint8_t pattern;  /* which edges are split */
-    uint8_t child;    /* the next part to visit */
-    bool inside;      /* all that it can become is on the band */
+    uint8_t pattern; /* which edges are split */
+    uint8_t part;    /* the next one to visit */
 } yb_level_t;
 
 /* Working memory of a frame. Only stats is for the caller to read. */
@@ -465,6 +458,7 @@ typedef struct {
     int32_t most_bend;     /* height times 1/depth that changes a point's depth by a 64th */
     int32_t sway_x_q4;     /* farthest that one unit of height moves a point on the screen, … */
     int32_t sway_y_q4;     /* … by 1/depth: see refine.c */
+    int32_t spare_q4;      /* what rounding in view space does at the near distance */
     int32_t near;          /* nothing nearer is drawn: view space, q8 >> eye_shift */
     int32_t near_scaled;   /* near as 15 bits … */
     int32_t near_shift;    /* … times 2^near_shift */
