@@ -43,7 +43,6 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
     *view = (yb_view_t){
         .zoom_q12 = 4392,
         .exaggerate_q8 = 256,
-        .edge_q4 = 112,
         .walls = true,
         .water_q8 = YB_NO_WATER,
     };
@@ -183,18 +182,24 @@ static void find_lift(yb_frame_t *frame)
     frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
 }
 
-/* An edge is split by its plan length, foreshortened in the direction of view as level ground is,
- * but to no less than a quarter: hills rise above their ground.
+/* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees above
+ * the ground on not at all, on foot to a quarter, for hills rise above their ground. There triangles
+ * are wider too, so that they cover about as many pixels in every view.
  */
 static void find_lengths(yb_frame_t *frame, const pose_t *pose)
 {
     int32_t steep = fix_clamp(2 * fix_abs(pose->sin_a), 1 << 12, 1 << 14);
-    frame->along_x = (pose->cos_b * steep) >> 15;
-    frame->along_y = (pose->sin_b * steep) >> 15;
-    frame->across_x = -pose->sin_b >> 1;
-    frame->across_y = pose->cos_b >> 1;
+    int32_t wide = (steep + (1 << 14)) >> 1;
+    int32_t high = (steep * wide) >> 14;
+    frame->along_x = (pose->cos_b * high) >> 15;
+    frame->along_y = (pose->sin_b * high) >> 15;
+    frame->across_x = (-pose->sin_b * wide) >> 15;
+    frame->across_y = (pose->cos_b * wide) >> 15;
     /* focal * 2 length_q7 / depth > edge, with depth as 65535 near / (1/depth). */
-    uint64_t edge = (uint64_t)fix_max(frame->view.edge_q4, 1) * 65535;
+    uint32_t edge_q4 = frame->view.edge_q4;
+    if (edge_q4 == 0) /* a sixteenth of the width, and a little less */
+        edge_q4 = (uint32_t)fix_max(frame->screen.width - (frame->screen.width >> 6), 1);
+    uint64_t edge = (uint64_t)edge_q4 * 65535;
     uint64_t longest = (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
     frame->longest = longest < UINT32_MAX ? (uint32_t)longest : UINT32_MAX;
 }

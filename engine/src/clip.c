@@ -93,7 +93,6 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
     for (int plane = 0; plane < PLANES; plane++, now ^= 1)
         clip_plane(frame, &polygon[now], plane, &polygon[now ^ 1]);
     yb_spot_t fan[3];
-    raster_setup_t setup;
     bool drawn = false;
     for (int i = 0; i < polygon[now].count; i++) {
         yb_spot_t *to = &fan[fix_min(i, 2)];
@@ -104,10 +103,8 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
             camera_project(frame, &from->at, to);
         if (i < 2)
             continue;
-        if (raster_setup(raster, &fan[0], &fan[1], &fan[2], &setup)) {
-            raster_fill(raster, &setup, pixel);
+        if (raster_draw(raster, &fan[0], &fan[1], &fan[2], pixel) != RASTER_NOTHING)
             drawn = true;
-        }
         fan[1] = fan[2];
     }
     return drawn;

@@ -73,12 +73,6 @@ static void depth_gradient(const yb_spot_t *const p[3], int32_t *along_x, int32_
 
 /* --- Edges ------------------------------------------------------------------------------------ */
 
-/* First pixel whose centre is at or right of (below) a coordinate. */
-static inline int32_t first_pixel(int32_t q4)
-{
-    return (q4 + 7) >> 4;
-}
-
 /* Where an edge crosses a row of pixels: the first whose centre is on the edge or right of it. It
  * goes with the edge from row to row, in whole pixels: no division, and exact. Both triangles at an
  * edge come to the same pixel, which is where the one ends and the other begins.
@@ -102,22 +96,15 @@ static inline void edge_settle(edge_t *edge)
 }
 
 /* From p down to q, at the row y, which it crosses. */
-static void edge_start(edge_t *edge, const yb_spot_t *p, const yb_spot_t *q, int32_t y)
+static inline void edge_start(edge_t *edge, const yb_spot_t *p, const yb_spot_t *q, int32_t y)
 {
     int32_t dx = q->x_q4 - p->x_q4;
     int32_t dy = q->y_q4 - p->y_q4;
-    edge->x = first_pixel(p->x_q4);
+    edge->x = raster_pixel(p->x_q4);
     edge->side = (raster_area_t)(edge->x * 16 + 8 - p->x_q4) * dy -
                  (raster_area_t)(y * 16 + 8 - p->y_q4) * dx;
     edge->across = (raster_area_t)dy * 16;
     edge->down = (raster_area_t)dx * 16;
-    edge_settle(edge);
-}
-
-static inline void edge_down(edge_t *edge)
-{
-    edge->side -= edge->down;
-    edge_settle(edge);
 }
 
 /* --- The pixels ------------------------------------------------------------------------------- */
@@ -127,34 +114,14 @@ typedef struct {
     int32_t along_x, along_y;
 } plane_t;
 
-enum {
-    LEVEL_Q4 = 16 * 16 /* triangles up to this size are drawn at the mean of their depths */
-};
-
-/* Is a triangle so small that one depth will do? */
-static bool is_small(const yb_spot_t *const p[3])
-{
-    int32_t left = fix_min(p[0]->x_q4, fix_min(p[1]->x_q4, p[2]->x_q4));
-    int32_t right = fix_max(p[0]->x_q4, fix_max(p[1]->x_q4, p[2]->x_q4));
-    int32_t bottom = fix_max(p[1]->y_q4, p[2]->y_q4);
-    return right - left <= LEVEL_Q4 && bottom - p[0]->y_q4 <= LEVEL_Q4;
-}
-
 /* 1/depth at the pixel (0, y). */
 static void plane_start(plane_t *plane, const yb_spot_t *const p[3], int32_t y)
 {
-    plane->along_x = plane->along_y = 0;
-    if (is_small(p)) {
-        /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
-        uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
-        plane->near_q14 = ((sum >> 1) * (uint32_t)43691 >> 16) << 14;
-        return;
-    }
     depth_gradient(p, &plane->along_x, &plane->along_y);
     /* From corner 0, whole pixels to where this band begins: the same depth in every band.
      * Unsigned: partial sums may wrap, the depth inside the triangle does not. */
-    int32_t x0 = first_pixel(p[0]->x_q4);
-    int32_t y0 = first_pixel(p[0]->y_q4);
+    int32_t x0 = raster_pixel(p[0]->x_q4);
+    int32_t y0 = raster_pixel(p[0]->y_q4);
     plane->near_q14 = ((uint32_t)p[0]->near << 14) + ((uint32_t)1 << 13) +
                       (uint32_t)(plane->along_x >> 4) * (uint32_t)(x0 * 16 + 8 - p[0]->x_q4) +
                       (uint32_t)(plane->along_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0]->y_q4) -
@@ -180,23 +147,10 @@ static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, ui
 }
 
 /* The pixels from x up to end of a row. */
-static void draw_span(const raster_t *raster, int32_t line, int32_t x, int32_t end,
+static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x, int32_t end,
                       const plane_t *plane, uint16_t pixel)
 {
-    const yb_band_t *band = raster->band;
-    uint16_t *depth = band->depth + line * raster->screen->width;
-    uint8_t *row = band->pixels + (size_t)line * band->pitch;
     uint32_t near = plane->near_q14 + (uint32_t)plane->along_x * (uint32_t)x;
-    if (plane->along_x == 0) {
-        uint16_t flat = depth_of(near);
-        for (; x < end; x++) {
-            if (flat > depth[x]) {
-                depth[x] = flat;
-                put_pixel(raster, row, x, pixel);
-            }
-        }
-        return;
-    }
     for (; x < end; x++, near += (uint32_t)plane->along_x) {
         if (depth_of(near) > depth[x]) {
             depth[x] = depth_of(near);
@@ -205,67 +159,100 @@ static void draw_span(const raster_t *raster, int32_t line, int32_t x, int32_t e
     }
 }
 
-bool raster_setup(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                  const yb_spot_t *c, raster_setup_t *setup)
+/* As draw_span, at one depth. */
+static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x,
+                              int32_t end, uint16_t near, uint16_t pixel)
 {
-    int32_t top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
-    int32_t bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
-    setup->y0 = fix_max(first_pixel(top), raster->first_row);
-    setup->y1 = fix_min(first_pixel(bottom), raster->end_row);
-    if (setup->y0 >= setup->y1)
-        return false;
-    /* y points down: a front, counter-clockwise with y up, is negative here. */
-    if ((raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
-            (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4) >=
-        0)
-        return false;
-    int32_t left = fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4));
-    int32_t right = fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4));
-    int32_t x0 = fix_max(first_pixel(left), 0);
-    if (x0 >= fix_min(first_pixel(right), raster->screen->width))
-        return false;
-    /* Clockwise from the topmost. */
-    const yb_spot_t *p[3] = {a, c, b};
-    int first = p[0]->y_q4 == top ? 0 : p[1]->y_q4 == top ? 1 : 2;
-    for (int i = 0; i < 3; i++)
-        setup->p[i] = p[first + i < 3 ? first + i : first + i - 3];
-    return true;
+    if (raster->screen->format == YB_RGB565) {
+        for (; x < end; x++) {
+            if (near > depth[x]) {
+                depth[x] = near;
+                row[2 * x] = (uint8_t)(pixel >> 8);
+                row[2 * x + 1] = (uint8_t)pixel;
+            }
+        }
+        return;
+    }
+    for (; x < end; x++) {
+        if (near > depth[x]) {
+            uint8_t *at = &row[x >> 1];
+            depth[x] = near;
+            *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
+        }
+    }
 }
 
-void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t pixel)
+void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                 const yb_spot_t *c, raster_look_t look, uint16_t pixel)
 {
-    const yb_spot_t *const *p = setup->p;
-    edge_t left;
-    edge_t right;
-    plane_t plane;
-    plane_start(&plane, p, setup->y0);
-    /* Down the right side by p[1], down the left one by p[2]; one of them is the lowest. */
-    int32_t right_turn = first_pixel(p[1]->y_q4);
-    int32_t left_turn = first_pixel(p[2]->y_q4);
-    int32_t y = setup->y0;
-    if (y < right_turn)
-        edge_start(&right, p[0], p[1], y);
-    else
-        edge_start(&right, p[1], p[2], y);
-    if (y < left_turn)
-        edge_start(&left, p[0], p[2], y);
-    else
-        edge_start(&left, p[2], p[1], y);
+    /* Clockwise from the topmost: down the right side by p[1], down the left one by p[2]. One of
+     * them is the lowest. */
+    const yb_spot_t *p[3] = {a, c, b};
+    if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
+        p[0] = b;
+        p[1] = a;
+        p[2] = c;
+    } else if (c->y_q4 < a->y_q4) {
+        p[0] = c;
+        p[1] = b;
+        p[2] = a;
+    }
+    int32_t y = fix_max(raster_pixel(p[0]->y_q4), raster->first_row);
+    int32_t right_turn = raster_pixel(p[1]->y_q4);
+    int32_t left_turn = raster_pixel(p[2]->y_q4);
+    int32_t end_y = fix_min(fix_max(right_turn, left_turn), raster->end_row);
+    plane_t plane = {0, 0, 0};
+    /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
+    uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
+    uint16_t near = (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
+    if (look == RASTER_FRONT)
+        plane_start(&plane, p, y);
+    int32_t line = y - raster->first_row;
+    uint16_t *depth = raster->band->depth + line * raster->screen->width;
+    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
+    /* Each side starts here; where it turns it starts again with the other edge. */
+    bool right_second = right_turn <= y;
+    bool left_second = left_turn <= y;
+    int32_t right_start = y;
+    int32_t left_start = y;
+    edge_t left = {0, 0, 0, 0};
+    edge_t right = {0, 0, 0, 0};
     for (;;) {
+        if (y == right_start) {
+            edge_start(&right, right_second ? p[1] : p[0], right_second ? p[2] : p[1], y);
+            right_start = right_turn;
+            right_second = true;
+        } else {
+            right.side -= right.down;
+        }
+        edge_settle(&right);
+        if (y == left_start) {
+            edge_start(&left, left_second ? p[2] : p[0], left_second ? p[1] : p[2], y);
+            left_start = left_turn;
+            left_second = true;
+        } else {
+            left.side -= left.down;
+        }
+        edge_settle(&left);
         int32_t x = fix_max(left.x, 0);
         int32_t end = fix_min(right.x, raster->screen->width);
-        if (x < end)
-            draw_span(raster, y - raster->first_row, x, end, &plane, pixel);
-        if (++y == setup->y1)
+        if (look != RASTER_FRONT)
+            draw_level(raster, depth, row, x, end, near, pixel);
+        else
+            draw_span(raster, depth, row, x, end, &plane, pixel);
+        if (++y >= end_y)
             return;
         plane.near_q14 += (uint32_t)plane.along_y;
-        if (y == right_turn)
-            edge_start(&right, p[1], p[2], y);
-        else
-            edge_down(&right);
-        if (y == left_turn)
-            edge_start(&left, p[2], p[1], y);
-        else
-            edge_down(&left);
+        depth += raster->screen->width;
+        row += raster->band->pitch;
     }
+}
+
+raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                          const yb_spot_t *c, uint16_t pixel)
+{
+    raster_look_t look = raster_look(raster, a, b, c);
+    if (look == RASTER_FRONT || look == RASTER_SMALL)
+        raster_fill(raster, a, b, c, look, pixel);
+    return look;
 }

@@ -235,64 +235,45 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
     return box_misses(view, &box);
 }
 
-/* Is nothing that a level can become in the view? Most levels lie in it as they are. */
-static inline bool level_misses(const yb_frame_t *frame, const refine_view_t *view,
-                                const yb_level_t *level)
-{
-    box_t box;
-    if (find_box(level->point, 3, &box) && !box_misses(view, &box))
-        return false;
-    return refine_misses(frame, view, level->point, 3, refine_stray(frame, level));
-}
-
 /* How far refinement can move a point of a triangle, of which the edges of level->pattern are
- * split: by their midpoints now, and by what its parts do then. No part has a longer edge than
- *
- *     the halves, the edges left whole, and where two are split the mean of the third and one of
- *     them: any other line to a midpoint is no longer than the longer of two sides beside it.
+ * split: by their midpoints now, and by what its parts do then. None of them has an edge that is
+ * longer than the mean of the longest of all and the longest that is left whole: halves are no
+ * longer, and a line from a corner to a midpoint no longer than the mean of the sides beside it.
  *
  * None of it comes nearer by more than an eighth; else the caller has to know of no limit.
  */
 static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, int32_t near)
 {
-    uint32_t part = 0;
-    uint32_t most = 0;
-    uint32_t whole = 0;
+    const yb_edge_t *edge = level->edge;
+    yb_edge_t longest = 0;
+    yb_edge_t class = 0;
+    yb_edge_t whole = 0;
     int32_t bulge = 0;
-    int longest = 0;
-    int longest_split = 0;
     for (int i = 0; i < 3; i++) {
-        uint32_t length = refine_length(level->edge[i]);
-        int class = refine_class(level->edge[i]);
-        bool split = (level->pattern & 1 << i) != 0;
-        most = length > most ? length : most;
-        longest = fix_max(longest, class);
-        if (split) {
-            length >>= 1;
-            longest_split = fix_max(longest_split, class);
-        } else {
-            whole = length;
-        }
-        part = length > part ? length : part;
+        yb_edge_t length = edge[i] & 0xffff;
+        longest = length > longest ? length : longest;
+        whole = edge[i] < REFINE_ONCE && length > whole ? length : whole;
+        class = (edge[i] & 0xff0000) > class ? edge[i] & 0xff0000 : class;
         bulge = fix_max(bulge,
                         fix_abs(bulge_of(level->point[i], level->point[i == 2 ? 0 : i + 1])));
     }
-    if (level->pattern != 7 && (level->pattern & (level->pattern - 1)) != 0)
-        part = (most + whole) >> 1 > part ? (most + whole) >> 1 : part;
+    const yb_map_t *map = frame->map;
+    int c = refine_class(class);
+    int32_t now = (map->noise[c] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
+    uint32_t size = (((longest + whole) >> 1) + 1) * (uint32_t)near;
+    size += size >> 3;
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */
-    relief_bound_t bound = {bulge + (bulge >> 1) + 16, longest};
-    int32_t now = frame->map->detail ? (frame->map->noise[longest_split] * RELIEF_HASH_MOST >>
-                                        RELIEF_NOISE_SHIFT) + 1
-                                     : 0;
-    uint32_t size = (part + 1) * (uint32_t)near;
-    size += size >> 3;
+    bulge += (bulge >> 1) + 16;
+    if (size <= frame->longest)
+        return bulge + now;
     int often = 0;
     for (; size > frame->longest && often < 16; size >>= 1)
         often++;
-    if (level->pattern == 7)
-        bound.longest = fix_max(longest - 4, 0);
-    return now + relief_reach(frame->map, &bound, bound.longest + 4 - 4 * often);
+    if (whole == 0)
+        c = fix_max(c - 4, 0);
+    const relief_bound_t bound = {bulge, c};
+    return now + relief_reach(map, &bound, c + 4 - 4 * often);
 }
 
 int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level)
@@ -313,9 +294,24 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level)
     return stray;
 }
 
+/* Is nothing that a level can become in the view? Most levels lie in it as they are. */
+static inline bool level_misses(const yb_frame_t *frame, const refine_view_t *view,
+                                const yb_level_t *level)
+{
+    box_t box;
+    if (!find_box(level->point, 3, &box))
+        return misses_planes(frame, view, level->point, 3, refine_stray(frame, level));
+    if (!box_misses(view, &box))
+        return false;
+    int32_t stray = refine_stray(frame, level);
+    if (!widen_box(frame, stray, &box))
+        return misses_planes(frame, view, level->point, 3, stray);
+    return box_misses(view, &box);
+}
+
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-/* part[pattern][k]: part k of a triangle whose edges of `pattern` are split, by its corners (0 to 2:
+/* part_table[pattern] + 3 k: part k of a triangle whose edges of `pattern` are split, by its corners (0 to 2:
  * the triangle's; 3 to 5: the midpoints of edges 0 to 2) and, in the upper half, its edges (0 to 2:
  * an edge of the triangle; 3 to 5: a half of it; 6 to 8: one of those between the parts). As SPEC
  * 3.4.
@@ -324,15 +320,15 @@ enum {
     PARTS = 4,
     PART_END = 6
 };
-static const uint8_t part_table[8][PARTS][3] = {
-    {{PART_END}},
-    {{0x30, 0x63, 0x22}, {0x33, 0x11, 0x62}, {PART_END}},
-    {{0x41, 0x64, 0x00}, {0x44, 0x22, 0x60}, {PART_END}},
-    {{0x64, 0x33, 0x41}, {0x22, 0x30, 0x73}, {0x72, 0x63, 0x44}, {PART_END}},
-    {{0x52, 0x65, 0x11}, {0x55, 0x00, 0x61}, {PART_END}},
-    {{0x63, 0x55, 0x30}, {0x11, 0x52, 0x75}, {0x71, 0x65, 0x33}, {PART_END}},
-    {{0x65, 0x44, 0x52}, {0x00, 0x41, 0x74}, {0x70, 0x64, 0x55}, {PART_END}},
-    {{0x30, 0x73, 0x55}, {0x33, 0x41, 0x84}, {0x65, 0x44, 0x52}, {0x64, 0x75, 0x83}},
+static const uint8_t part_table[8][3 * PARTS + 1] = {
+    {PART_END},
+    {0x30, 0x63, 0x22, 0x33, 0x11, 0x62, PART_END},
+    {0x41, 0x64, 0x00, 0x44, 0x22, 0x60, PART_END},
+    {0x64, 0x33, 0x41, 0x22, 0x30, 0x73, 0x72, 0x63, 0x44, PART_END},
+    {0x52, 0x65, 0x11, 0x55, 0x00, 0x61, PART_END},
+    {0x63, 0x55, 0x30, 0x11, 0x52, 0x75, 0x71, 0x65, 0x33, PART_END},
+    {0x65, 0x44, 0x52, 0x00, 0x41, 0x74, 0x70, 0x64, 0x55, PART_END},
+    {0x30, 0x73, 0x55, 0x33, 0x41, 0x84, 0x65, 0x44, 0x52, 0x64, 0x75, 0x83, PART_END},
 };
 /* The ends of the edges between the parts; 0: there is none. Where all three edges are split edge i
  * is half as long as, and parallel to, edge i of the triangle.
@@ -392,8 +388,8 @@ void refine_split(const yb_frame_t *frame, yb_level_t *level)
 
 bool refine_part(const yb_level_t *level, int k, yb_level_t *part)
 {
-    const uint8_t *table = part_table[level->pattern][k & (PARTS - 1)];
-    if (k == PARTS || table[0] == PART_END)
+    const uint8_t *table = &part_table[level->pattern][3 * k];
+    if (table[0] == PART_END)
         return false;
     for (int i = 0; i < 3; i++) {
         part->point[i] = level->point[table[i] & 15];
@@ -424,61 +420,89 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
 
 /* --- Refinement ------------------------------------------------------------------------------- */
 
-/* Draws a triangle that is not split any more. */
-static void leaf(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                 const yb_point_t *const p[3])
+/* Draws a triangle that is not split any more and has a corner without a spot. */
+static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                         const yb_point_t *const p[3])
+{
+    /* Where corners with spots lie in view space is known less well. */
+    if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
+        misses_planes(frame, view, p, 3, 0))
+        return;
+    frame->stats.drawn += clip_draw(frame, raster, p, shade_ground(frame, p)) ? 1 : 0;
+}
+
+static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                        const yb_point_t *const p[3])
 {
     frame->stats.refined++;
     if (raster == NULL)
         return;
-    if (fix_min(p[0]->spot.y_q4, fix_min(p[1]->spot.y_q4, p[2]->spot.y_q4)) == INT32_MIN) {
-        /* Where corners with spots lie in view space is known less well. */
-        bool far = p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0;
-        if (!far || !misses_planes(frame, view, p, 3, 0))
-            frame->stats.drawn += clip_draw(frame, raster, p, shade_ground(frame, p)) ? 1 : 0;
+    raster_look_t look = raster_look(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
+    if (look == RASTER_NOTHING)
+        return;
+    if (look == RASTER_BEYOND) {
+        draw_clipped(frame, view, raster, p);
         return;
     }
-    raster_setup_t setup;
-    if (raster_setup(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, &setup)) {
-        raster_fill(raster, &setup, shade_ground(frame, p));
-        frame->stats.drawn++;
-    }
+    frame->stats.drawn++;
+    raster_fill(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, shade_ground(frame, p));
 }
 
-/* Splits the edges of a level that look long; false if the triangle is done with. */
-static inline bool open_level(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                              yb_level_t *level)
+/* What becomes of a triangle with an edge that may be split. */
+typedef enum {
+    DROPPED,
+    SPLIT,
+    LEAF
+} fate_t;
+
+static inline fate_t open_level(yb_frame_t *frame, const refine_view_t *view, yb_level_t *level)
 {
-    level->part = 0;
-    if (refine_pattern(frame, level) != 0) {
-        if (level_misses(frame, view, level))
-            return false;
-        if (level != &frame->level[YB_MAX_LEVELS - 1]) {
-            refine_split(frame, level);
-            return true;
-        }
+    if (refine_pattern(frame, level) == 0)
+        return LEAF;
+    if (level_misses(frame, view, level))
+        return DROPPED;
+    if (level == &frame->level[YB_MAX_LEVELS - 1]) {
         frame->stats.depth_limited++;
+        return LEAF;
     }
-    leaf(frame, view, raster, level->point);
-    return false;
+    refine_split(frame, level);
+    level->next = part_table[level->pattern];
+    return SPLIT;
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                  yb_triangle_t triangle)
 {
+    /* The first level has one part: the base triangle as it is. */
+    static const uint8_t whole[4] = {0x00, 0x11, 0x22, PART_END};
     yb_level_t *level = frame->level;
     refine_root(frame, level, triangle);
-    if (!open_level(frame, view, raster, level))
-        return;
+    level->next = whole;
     for (;;) {
-        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
-            return; /* counted enough: too many */
-        if (refine_part(level, level->part++, level + 1)) {
-            level += open_level(frame, view, raster, level + 1) ? 1 : 0;
-        } else {
+        const uint8_t *next = level->next;
+        if (next[0] == PART_END) {
             if (level == frame->level)
                 return;
             level--;
+            continue;
         }
+        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
+            return; /* counted enough: too many */
+        level->next = next + 3;
+        const yb_point_t *const p[3] = {level->point[next[0] & 15], level->point[next[1] & 15],
+                                        level->point[next[2] & 15]};
+        const yb_edge_t edge[3] = {level->edge[next[0] >> 4], level->edge[next[1] >> 4],
+                                   level->edge[next[2] >> 4]};
+        fate_t fate = LEAF;
+        if ((edge[0] | edge[1] | edge[2]) >= REFINE_ONCE) {
+            for (int i = 0; i < 3; i++) {
+                level[1].point[i] = p[i];
+                level[1].edge[i] = edge[i];
+            }
+            fate = open_level(frame, view, level + 1);
+        }
+        if (fate == LEAF)
+            leaf(frame, view, raster, p);
+        level += fate == SPLIT ? 1 : 0;
     }
 }

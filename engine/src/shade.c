@@ -61,25 +61,30 @@ static uint32_t reciprocal_root(uint32_t a)
     return root_table[i - 16] + 1 - (step * (a >> 18 & 255) >> 8);
 }
 
-/* The shade of a surface by the cosine between its upward normal n, of up to 24 bits, and the sun
+/* The shade of a surface by the cosine between its upward normal n, of up to 30 bits, and the sun
  * (Lambert). The normal is first brought to 15 bits: its square then fits 32, and the dot product
  * is within 3 * 2^29.
  */
-static int32_t lambert(const yb_frame_t *frame, const int32_t normal[3])
+static int32_t lambert(const yb_frame_t *frame, int32_t x, int32_t y, int32_t z)
 {
-    uint32_t all = (uint32_t)(fix_abs(normal[0]) | fix_abs(normal[1]) | fix_abs(normal[2]));
+    uint32_t all = (uint32_t)(fix_abs(x) | fix_abs(y) | fix_abs(z));
     if (all == 0)
         return DARKEST;
     int shift = fix_log2_floor(all) - 14;
-    uint32_t square = 0;
-    int32_t dot = 0;
-    for (int i = 0; i < 3; i++) {
-        int32_t n = shift >= 0 ? normal[i] >> shift : normal[i] * (1 << -shift);
-        square += (uint32_t)(n * n);
-        dot += n * frame->view.sun_q14[i];
+    if (shift >= 0) {
+        x >>= shift;
+        y >>= shift;
+        z >>= shift;
+    } else {
+        x *= 1 << -shift;
+        y *= 1 << -shift;
+        z *= 1 << -shift;
     }
+    const int16_t *sun = frame->view.sun_q14;
+    int32_t dot = x * sun[0] + y * sun[1] + z * sun[2];
     if (dot <= 0)
         return DARKEST;
+    uint32_t square = (uint32_t)(x * x) + (uint32_t)(y * y) + (uint32_t)(z * z);
     uint32_t along = (uint32_t)dot >> 14;
     while (square < (uint32_t)1 << 30) { /* from 2^28 on: once at most */
         square <<= 2;
@@ -91,20 +96,24 @@ static int32_t lambert(const yb_frame_t *frame, const int32_t normal[3])
     return fix_min(DARKEST + (int32_t)((cosine_q12 * (SHADES - DARKEST)) >> 12), SHADES - 1);
 }
 
-/* The upward normal of a triangle, from differences brought to 11 bits: a product of two has 22. */
-static void normal_of(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t normal[3])
+/* The shade of a triangle by its upward normal, from differences of at most 14 bits: a product of
+ * two has 28.
+ */
+static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
 {
     int32_t x1 = relief_dx(p[0]->place, p[1]->place);
     int32_t y1 = relief_dy(p[0]->place, p[1]->place);
     int32_t x2 = relief_dx(p[0]->place, p[2]->place);
     int32_t y2 = relief_dy(p[0]->place, p[2]->place);
-    /* 2^19 * 2^8 */
-    int32_t scale = frame->view.exaggerate_q8 >> 3;
-    int32_t z1 = ((p[1]->top_q8 - p[0]->top_q8) * scale) >> 5;
-    int32_t z2 = ((p[2]->top_q8 - p[0]->top_q8) * scale) >> 5;
-    uint32_t all = (uint32_t)(fix_abs(x1) | fix_abs(y1) | fix_abs(x2) | fix_abs(y2) | fix_abs(z1) |
-                              fix_abs(z2));
-    for (; all >= 1u << 11; all >>= 1) {
+    int32_t z1 = p[1]->top_q8 - p[0]->top_q8;
+    int32_t z2 = p[2]->top_q8 - p[0]->top_q8;
+    if (frame->view.exaggerate_q8 != 256) { /* 2^20 * 2^8 */
+        z1 = (z1 * (frame->view.exaggerate_q8 >> 3)) >> 5;
+        z2 = (z2 * (frame->view.exaggerate_q8 >> 3)) >> 5;
+    }
+    const int32_t most = 1 << 14;
+    while ((uint32_t)((x1 + most) | (y1 + most) | (x2 + most) | (y2 + most) | (z1 + most) |
+                      (z2 + most)) >= (uint32_t)1 << 15) {
         x1 >>= 1;
         y1 >>= 1;
         z1 >>= 1;
@@ -112,16 +121,12 @@ static void normal_of(const yb_frame_t *frame, const yb_point_t *const p[3], int
         y2 >>= 1;
         z2 >>= 1;
     }
-    normal[0] = y1 * z2 - z1 * y2;
-    normal[1] = z1 * x2 - x1 * z2;
-    normal[2] = x1 * y2 - y1 * x2;
+    return lambert(frame, y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2);
 }
 
 uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
-    int32_t normal[3];
-    normal_of(frame, corner, normal);
-    uint32_t shade = (uint32_t)lambert(frame, normal);
+    uint32_t shade = (uint32_t)shade_of(frame, corner);
     if (frame->screen.format == YB_GREY4)
         return (uint16_t)shade;
     int32_t water = frame->view.water_q8;
@@ -140,8 +145,9 @@ uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3]
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     /* Outward: to the right of the edge. */
-    const int32_t normal[3] = {relief_dy(a->place, b->place), relief_dx(b->place, a->place), 0};
-    int32_t shade = fix_max(lambert(frame, normal) - WALL_DIM, DARKEST);
+    int32_t dx = relief_dx(a->place, b->place);
+    int32_t dy = relief_dy(a->place, b->place);
+    int32_t shade = fix_max(lambert(frame, dy, -dx, 0) - WALL_DIM, DARKEST);
     int32_t water = frame->view.water_q8;
     bool flooded = a->z_q8 <= water && b->z_q8 <= water;
     return pixel_of(frame, flooded ? water_hue : wall_hue, (uint32_t)shade);

@@ -28,13 +28,10 @@ void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
 static void draw_half(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3],
                       uint16_t pixel)
 {
-    raster_setup_t setup;
-    if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0) {
-        frame->stats.drawn += clip_draw(frame, raster, p, pixel) ? 1 : 0;
-    } else if (raster_setup(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, &setup)) {
-        raster_fill(raster, &setup, pixel);
+    raster_look_t look =
+        raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
+    if (look != RASTER_NOTHING && (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel)))
         frame->stats.drawn++;
-    }
 }
 
 static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point_t *a,

@@ -37,7 +37,7 @@ static void walk(walk_t *at, yb_level_t *level, int depth)
 {
     if (plain_behind(at->frame, level))
         return;
-    if (depth + 1 == YB_MAX_LEVELS || refine_pattern(at->frame, level) == 0) {
+    if (depth + 2 == YB_MAX_LEVELS || refine_pattern(at->frame, level) == 0) {
         at->count++;
         at->fn(at->context, level->point);
         return;
@@ -70,11 +70,12 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
     uint16_t pixel = shade_ground(drawing->frame, p);
-    raster_setup_t setup;
-    if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0)
+    raster_look_t look =
+        raster_look(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
+    if (look == RASTER_BEYOND)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
-    else if (raster_setup(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, &setup))
-        raster_fill(&drawing->raster, &setup, pixel);
+    else if (look != RASTER_NOTHING)
+        raster_fill(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)

@@ -37,7 +37,7 @@
  * Each level takes 124 bytes of yb_frame_t.
  */
 #ifndef YB_MAX_LEVELS
-#define YB_MAX_LEVELS 16
+#define YB_MAX_LEVELS 15
 #endif
 #if YB_MAX_LEVELS < 4 || YB_MAX_LEVELS > 32
 #error "YB_MAX_LEVELS: 4 to 32"
