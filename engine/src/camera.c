@@ -6,7 +6,7 @@
 enum {
     FAR_Q8 = 4096 * 256, /* positions are clamped to this */
     NEAREST_Q8 = 128,    /* half a step: never draw nearer */
-    LEAST_NEAR = 64, /* in the view's own unit: what rounding does must stay small beside it */
+    LEAST_NEAR = 64,     /* in the view's own unit: what rounding does must stay small beside it */
     LEAST_ZOOM_Q12 = 1024,
     MOST_FOCAL_Q4 = 61440
 };
@@ -161,7 +161,8 @@ static void find_lift(yb_frame_t *frame)
     int64_t wide = frame->screen.width * 24;
     int64_t high = frame->screen.height * 24;
     uint64_t up = (uint64_t)(frame->focal_q4 * lift);
-    uint64_t part[3] = {up, (uint64_t)(wide * bend) * 8 / 7, (up + (uint64_t)(high * bend)) * 8 / 7};
+    uint64_t part[3] = {up, (uint64_t)(wide * bend) * 8 / 7,
+                        (up + (uint64_t)(high * bend)) * 8 / 7};
     int shift = 20;
     while (whole >> 32 != 0) {
         whole >>= 1;
@@ -182,9 +183,9 @@ static void find_lift(yb_frame_t *frame)
     frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
 }
 
-/* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees above
- * the ground on not at all, on foot to a quarter, for hills rise above their ground. There triangles
- * are wider too, so that they cover about as many pixels in every view.
+/* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees
+ * above the ground on not at all, on foot to a quarter, for hills rise above their ground. There
+ * triangles are wider too, so that they cover about as many pixels in every view.
  */
 static void find_lengths(yb_frame_t *frame, const pose_t *pose)
 {
@@ -200,7 +201,8 @@ static void find_lengths(yb_frame_t *frame, const pose_t *pose)
     if (edge_q4 == 0) /* a sixteenth of the width, and a little less */
         edge_q4 = (uint32_t)fix_max(frame->screen.width - (frame->screen.width >> 6), 1);
     uint64_t edge = (uint64_t)edge_q4 * 65535;
-    uint64_t longest = (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
+    uint64_t longest =
+        (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
     frame->longest = longest < UINT32_MAX ? (uint32_t)longest : UINT32_MAX;
 }
 

@@ -44,8 +44,8 @@ static int32_t farthest_stray(yb_frame_t *frame)
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         const yb_index_t *corner = map->triangle[t];
         relief_bound_t bound;
-        relief_bound(map, &map->vertex[corner[0]], &map->vertex[corner[1]],
-                     &map->vertex[corner[2]], &bound);
+        relief_bound(map, &map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
+                     &bound);
         farthest = fix_max(farthest, relief_reach(map, &bound, 0));
     }
     /* The block stands on a quarter of its relief. */

@@ -78,8 +78,8 @@ static void depth_gradient(const yb_spot_t *const p[3], int32_t *along_x, int32_
  * edge come to the same pixel, which is where the one ends and the other begins.
  */
 typedef struct {
-    raster_area_t side;           /* of the pixel x: 0 <= side < across once edge_settle is done */
-    raster_area_t across, down;   /* what a step right adds, and a step down takes off */
+    raster_area_t side;         /* of the pixel x: 0 <= side < across once edge_settle is done */
+    raster_area_t across, down; /* what a step right adds, and a step down takes off */
     int32_t x;
 } edge_t;
 
@@ -182,8 +182,8 @@ static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *
     }
 }
 
-void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                 const yb_spot_t *c, raster_look_t look, uint16_t pixel)
+void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                 raster_look_t look, uint16_t pixel)
 {
     /* Clockwise from the topmost: down the right side by p[1], down the left one by p[2]. One of
      * them is the lowest. */

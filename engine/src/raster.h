@@ -68,12 +68,12 @@ static inline raster_look_t raster_look(const raster_t *raster, const yb_spot_t 
     return right - left > RASTER_LEVEL || y1 - y0 > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
 }
 
-/* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where it is nearer than what
- * is there. A pixel is covered if its centre is inside, or on a top or left edge: pixels along the
- * common edge of two triangles are drawn once, none is left out.
+/* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
+ * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
+ * edge: pixels along the common edge of two triangles are drawn once, none is left out.
  */
-void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                 const yb_spot_t *c, raster_look_t look, uint16_t pixel);
+void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                 raster_look_t look, uint16_t pixel);
 
 /* Both: looks, and draws what is in front. */
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,

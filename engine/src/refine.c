@@ -71,8 +71,8 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
     return refine_ask(frame, a, b,
-                      (yb_edge_t)fix_length(across, along) |
-                          (yb_edge_t)(relief_class(dx, dy) + 4) << 16);
+                      (yb_edge_t)fix_length(across, along) | (yb_edge_t)(relief_class(dx, dy) + 4)
+                                                                 << 16);
 }
 
 /* Each half's mean of two numbers, rounded down. */
@@ -155,8 +155,8 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     }
 }
 
-/* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0; depth
- * < 2^18 and |slope| <= 2 * 2^8 make 2^27.
+/* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0;
+ * depth < 2^18 and |slope| <= 2 * 2^8 make 2^27.
  */
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int32_t stray)
@@ -220,8 +220,8 @@ static bool widen_box(const yb_frame_t *frame, int32_t stray, box_t *box)
 
 static inline bool box_misses(const refine_view_t *view, const box_t *box)
 {
-    return box->bottom < view->top_q4 || box->top > view->bottom_q4 ||
-           box->right < view->left_q4 || box->left > view->right_q4;
+    return box->bottom < view->top_q4 || box->top > view->bottom_q4 || box->right < view->left_q4 ||
+           box->left > view->right_q4;
 }
 
 bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
@@ -254,8 +254,8 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, i
         longest = length > longest ? length : longest;
         whole = edge[i] < REFINE_ONCE && length > whole ? length : whole;
         class = (edge[i] & 0xff0000) > class ? edge[i] & 0xff0000 : class;
-        bulge = fix_max(bulge,
-                        fix_abs(bulge_of(level->point[i], level->point[i == 2 ? 0 : i + 1])));
+        bulge =
+            fix_max(bulge, fix_abs(bulge_of(level->point[i], level->point[i == 2 ? 0 : i + 1])));
     }
     const yb_map_t *map = frame->map;
     int c = refine_class(class);
@@ -311,10 +311,10 @@ static inline bool level_misses(const yb_frame_t *frame, const refine_view_t *vi
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-/* part_table[pattern] + 3 k: part k of a triangle whose edges of `pattern` are split, by its corners (0 to 2:
- * the triangle's; 3 to 5: the midpoints of edges 0 to 2) and, in the upper half, its edges (0 to 2:
- * an edge of the triangle; 3 to 5: a half of it; 6 to 8: one of those between the parts). As SPEC
- * 3.4.
+/* part_table[pattern] + 3 k: part k of a triangle whose edges of `pattern` are split, by its
+ * corners (0 to 2: the triangle's; 3 to 5: the midpoints of edges 0 to 2) and, in the upper half,
+ * its edges (0 to 2: an edge of the triangle; 3 to 5: a half of it; 6 to 8: one of those between
+ * the parts). As SPEC 3.4.
  */
 enum {
     PARTS = 4,
@@ -360,9 +360,9 @@ uint8_t refine_pattern(const yb_frame_t *frame, yb_level_t *level)
             level->edge[i] =
                 refine_ask(frame, level->point[i], level->point[next_of(i)], level->edge[i]);
     }
-    level->pattern =
-        (uint8_t)((level->edge[0] >= REFINE_ONCE ? 1 : 0) | (level->edge[1] >= REFINE_ONCE ? 2 : 0) |
-                  (level->edge[2] >= REFINE_ONCE ? 4 : 0));
+    level->pattern = (uint8_t)((level->edge[0] >= REFINE_ONCE ? 1 : 0) |
+                               (level->edge[1] >= REFINE_ONCE ? 2 : 0) |
+                               (level->edge[2] >= REFINE_ONCE ? 4 : 0));
     return level->pattern;
 }
 
@@ -414,8 +414,7 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
         first = fix_clamp(box.top >> 4, 0, last);
         last = fix_clamp(box.bottom >> 4, 0, last);
     }
-    frame->rows[triangle] =
-        (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
+    frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
 }
 
 /* --- Refinement ------------------------------------------------------------------------------- */

@@ -2,8 +2,8 @@
  *
  * Whether an edge is split is a function of the edge alone, so triangles that share one agree. For
  * an edge that lies nearly across the view, or is short, one look at its ends says how often it is
- * to be halved: its halves, and theirs, follow. Of one that comes towards the eye each half is asked
- * anew.
+ * to be halved: its halves, and theirs, follow. Of one that comes towards the eye each half is
+ * asked anew.
  */
 #ifndef YB_REFINE_H
 #define YB_REFINE_H

@@ -93,7 +93,10 @@ static int32_t lambert(const yb_frame_t *frame, int32_t x, int32_t y, int32_t z)
     /* The cosine times 2^31, for a unit vector to the sun: any other is cut. */
     along = along < 65535 ? along : 65535;
     uint32_t cosine_q12 = along * reciprocal_root(square) >> 19;
-    return fix_min(DARKEST + (int32_t)((cosine_q12 * (SHADES - DARKEST)) >> 12), SHADES - 1);
+    /* Rounded up a little, so that level ground and water below a sun 30 degrees high, a half on
+     * the dot, have one shade whatever triangles they are made of. */
+    uint32_t shade = (cosine_q12 * (SHADES - DARKEST) + 1024) >> 12;
+    return fix_min(DARKEST + (int32_t)shade, SHADES - 1);
 }
 
 /* The shade of a triangle by its upward normal, from differences of at most 14 bits: a product of

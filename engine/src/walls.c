@@ -28,8 +28,7 @@ void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
 static void draw_half(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3],
                       uint16_t pixel)
 {
-    raster_look_t look =
-        raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
+    raster_look_t look = raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
     if (look != RASTER_NOTHING && (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel)))
         frame->stats.drawn++;
 }

@@ -70,8 +70,7 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
     uint16_t pixel = shade_ground(drawing->frame, p);
-    raster_look_t look =
-        raster_look(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
+    raster_look_t look = raster_look(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
     if (look == RASTER_BEYOND)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
     else if (look != RASTER_NOTHING)

@@ -164,8 +164,7 @@ static void positions_are_the_papers(void **state)
             /* Fourteen bits of sine and cosine, twice rounded, three terms. */
             double most = 4 * (1 << frame.eye_shift) + truth.offset * 4 / 16384;
             double off = fmax(fabs(seen(i).right - truth.right),
-                              fmax(fabs(seen(i).up - truth.up),
-                                   fabs(seen(i).depth - truth.depth)));
+                              fmax(fabs(seen(i).up - truth.up), fabs(seen(i).depth - truth.depth)));
             worst = fmax(worst, off / most);
             yb_point_t point;
             camera_root(&frame, (yb_index_t)i, &point);
@@ -175,7 +174,8 @@ static void positions_are_the_papers(void **state)
                 continue;
             on_screen++;
             double spread = 3 * most / truth.depth * frame.focal_q4 + 2;
-            worst_q4 = fmax(worst_q4, fmax(fabs(point.spot.x_q4 - x), fabs(point.spot.y_q4 - y)) / spread);
+            worst_q4 =
+                fmax(worst_q4, fmax(fabs(point.spot.x_q4 - x), fabs(point.spot.y_q4 - y)) / spread);
             double near = 65536.0 * (frame.near << frame.eye_shift) / truth.depth;
             assert_true(fabs(fmin(near, 65535) - point.spot.near) <
                         10 + near * (2 * most / truth.depth + 0.001));

@@ -86,9 +86,9 @@ static int64_t twice_area(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_
 static void random_mesh(mesh_t *mesh, rng_t *rng, int splits)
 {
     static const yb_spot_t frame[4] = {{-WIDTH * 16, -HEIGHT * 16, 100},
-                                            {2 * WIDTH * 16, -HEIGHT * 16, 100},
-                                            {2 * WIDTH * 16, 2 * HEIGHT * 16, 100},
-                                            {-WIDTH * 16, 2 * HEIGHT * 16, 100}};
+                                       {2 * WIDTH * 16, -HEIGHT * 16, 100},
+                                       {2 * WIDTH * 16, 2 * HEIGHT * 16, 100},
+                                       {-WIDTH * 16, 2 * HEIGHT * 16, 100}};
     memcpy(mesh->point, frame, sizeof frame);
     mesh->points = 4;
     const int start[2][3] = {{0, 2, 1}, {0, 3, 2}};
@@ -102,8 +102,7 @@ static void random_mesh(mesh_t *mesh, rng_t *rng, int splits)
         }
         for (int t = 0; t < mesh->triangles; t++) {
             int *v = mesh->triangle[t];
-            const yb_spot_t *q[3] = {&mesh->point[v[0]], &mesh->point[v[1]],
-                                          &mesh->point[v[2]]};
+            const yb_spot_t *q[3] = {&mesh->point[v[0]], &mesh->point[v[1]], &mesh->point[v[2]]};
             if (twice_area(q[0], q[1], &p) >= 0 || twice_area(q[1], q[2], &p) >= 0 ||
                 twice_area(q[2], q[0], &p) >= 0)
                 continue;

@@ -119,7 +119,8 @@ static double deviation_of_four_bytes(void)
         }
     }
     for (int sum = 0; sum < 1021; sum++)
-        squares += ways[0][sum] * pow(fix_clamp(sum - RELIEF_HASH_MEAN, -RELIEF_HASH_MOST, RELIEF_HASH_MOST), 2);
+        squares += ways[0][sum] *
+                   pow(fix_clamp(sum - RELIEF_HASH_MEAN, -RELIEF_HASH_MOST, RELIEF_HASH_MOST), 2);
     return sqrt(squares);
 }
 

@@ -351,9 +351,9 @@ typedef struct {
                              * mesh has triangles; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to a sixteenth of the screen's width, sun in
- * the north-west 30 degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south
- * of the map.
+/* The standard: 50 degrees across, true scale, edges up to a sixteenth of the screen's width, sun
+ * in the north-west 30 degrees high, walls, no water, no bound; eye and look as by yb_view_orbit
+ * south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
 
@@ -441,8 +441,8 @@ typedef struct {
     const yb_point_t *point[6]; /* its corners; the midpoints of its edges */
     yb_edge_t edge[9];          /* its own three; a half of each; those between its parts */
     yb_point_t middle[3];
-    const uint8_t *next;        /* of its parts to visit */
-    uint8_t pattern;            /* which edges are split */
+    const uint8_t *next; /* of its parts to visit */
+    uint8_t pattern;     /* which edges are split */
 } yb_level_t;
 
 /* Working memory of a frame. Only stats is for the caller to read. */
@@ -456,19 +456,19 @@ typedef struct {
     int32_t right_x, right_y, up_x, up_y, up_z, depth_x, depth_y, depth_z;
     uint8_t eye_shift;
     uint8_t lift_shift;
-    int16_t lift;          /* pixels that one unit of height rises on the screen, by 1/depth */
-    int32_t most_bend;     /* height times 1/depth that changes a point's depth by a 64th */
-    int32_t sway_x_q4;     /* farthest that one unit of height moves a point on the screen, … */
-    int32_t sway_y_q4;     /* … by 1/depth: see refine.c */
-    int32_t spare_q4;      /* what rounding in view space does at the near distance */
-    int32_t near;          /* nothing nearer is drawn: view space, q8 >> eye_shift */
-    int32_t near_scaled;   /* near as 15 bits … */
-    int32_t near_shift;    /* … times 2^near_shift */
-    int32_t base_q8;       /* where the walls end */
-    int32_t focal_q4;      /* pixels */
-    uint32_t longest;      /* an edge is split while length * 1/depth is above it */
+    int16_t lift;        /* pixels that one unit of height rises on the screen, by 1/depth */
+    int32_t most_bend;   /* height times 1/depth that changes a point's depth by a 64th */
+    int32_t sway_x_q4;   /* farthest that one unit of height moves a point on the screen, … */
+    int32_t sway_y_q4;   /* … by 1/depth: see refine.c */
+    int32_t spare_q4;    /* what rounding in view space does at the near distance */
+    int32_t near;        /* nothing nearer is drawn: view space, q8 >> eye_shift */
+    int32_t near_scaled; /* near as 15 bits … */
+    int32_t near_shift;  /* … times 2^near_shift */
+    int32_t base_q8;     /* where the walls end */
+    int32_t focal_q4;    /* pixels */
+    uint32_t longest;    /* an edge is split while length * 1/depth is above it */
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
-    int32_t tone_q16;      /* hues per height unit */
+    int32_t tone_q16;                             /* hues per height unit */
     uint8_t row_shift;              /* rows are binned by so many bits: at most 16 bins */
     uint8_t rows[YB_MAX_TRIANGLES]; /* of a base triangle: first and last bin, a nibble each */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
