@@ -95,9 +95,10 @@ static inline int32_t relief_rough(const yb_map_t *map, uint32_t middle, int cla
     /* scale < 2^16, noise within 2^9: the product is within 2^25. */
     int32_t noise = (scale * relief_noise(middle, map->seed) + (1 << (RELIEF_NOISE_SHIFT - 1))) >>
                     RELIEF_NOISE_SHIFT;
-    /* Nearly always well within its limit: no edge of a class is shorter than twice the root of the
-     * class's squared half length, which is at least 2^(class / 2), the quotient rounded down. */
-    if (fix_abs(noise) + (fix_abs(rise) >> 1) <= (int32_t)2 << (class >> 2))
+    /* Nearly always well within its limit: no edge of a class is shorter than twice the root of its
+     * squared half length, which is at least 2^(class / 2), and fix_length is at most 2.8 % and 1
+     * below that: at least 31/16 2^(class / 4) - 1. */
+    if (fix_abs(noise) + (fix_abs(rise) >> 1) <= ((int32_t)31 << (class >> 2) >> 4) - 1)
         return noise;
     return relief_limit(noise, dx, dy, rise);
 }
