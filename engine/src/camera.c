@@ -4,13 +4,12 @@
 #include "relief.h"
 
 #define FAR_Q8 ((int32_t)4096 * 256) /* positions are clamped to this */
-#define MOST_FOCAL_Q4 65528
+#define MOST_FOCAL_Q4 61440
 
 enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
-    LEAST_ZOOM_Q12 = 1024,
-    LEAST_SPLIT_Q4 = 16,
-    MOST_SPLIT_Q4 = 16383
+    LEAST_NEAR = 64,  /* in the view's own unit: what rounding does must stay small beside it */
+    LEAST_ZOOM_Q12 = 1024
 };
 
 /* --- Views ------------------------------------------------------------------------------------ */
@@ -45,7 +44,6 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
     *view = (yb_view_t){
         .zoom_q12 = 4392,
         .exaggerate_q8 = 256,
-        .edge_q4 = 112,
         .walls = true,
         .water_q8 = YB_NO_WATER,
     };
@@ -58,7 +56,6 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
 /* Sine and cosine of the camera's elevation and of its azimuth β (paper: eye seen from look). */
 typedef struct {
     int32_t sin_a, cos_a, sin_b, cos_b; /* Q14 */
-    int32_t distance;                   /* eye to look, q8 */
 } pose_t;
 
 static void find_pose(const yb_view_t *view, pose_t *pose)
@@ -69,7 +66,6 @@ static void find_pose(const yb_view_t *view, pose_t *pose)
     /* Differences are within 2^21; 8 more bits keep short vectors exact: squares below 2^59. */
     uint64_t flat = fix_sqrt((uint64_t)(dx * dx + dy * dy) << 14);
     uint64_t whole = fix_sqrt((uint64_t)(dx * dx + dy * dy + dz * dz) << 14);
-    pose->distance = (int32_t)(whole >> 7);
     /* Straight down (or up) any β would do: the picture's top is where the view's azimuth says. */
     pose->sin_b = -yb_cos_q14(view->azimuth_bam);
     pose->cos_b = -yb_sin_q14(view->azimuth_bam);
@@ -86,8 +82,10 @@ static void find_pose(const yb_view_t *view, pose_t *pose)
 }
 
 /* Limits that make every product below fit; documented at yb_view_t. */
-static void clamp_view(yb_view_t *view, const yb_screen_t *screen)
+void camera_clamp(yb_frame_t *frame)
 {
+    yb_view_t *view = &frame->view;
+    const yb_screen_t *screen = &frame->screen;
     for (int i = 0; i < 3; i++) {
         view->eye_q8[i] = fix_clamp(view->eye_q8[i], -FAR_Q8, FAR_Q8);
         view->look_q8[i] = fix_clamp(view->look_q8[i], -FAR_Q8, FAR_Q8);
@@ -102,137 +100,216 @@ static void clamp_view(yb_view_t *view, const yb_screen_t *screen)
         view->water_q8 = fix_clamp(view->water_q8, -YB_MAX_HEIGHT_Q8, YB_MAX_HEIGHT_Q8);
 }
 
-/* Rows of R (paper, DIGEST 3) times a position, Q14: right, up and back. */
-static void turn_vertices(yb_frame_t *frame, const pose_t *pose)
+/* --- The frame's constants -------------------------------------------------------------------- */
+
+/* Rows of R (paper, DIGEST 3), and how far places are shifted so that each coordinate has 16 bits:
+ * the eye's distance from the farthest corner of the map's bounding box, heights with what
+ * refinement, walls and water add. A row's product is then within sqrt(3) 2^16 2^14 < 2^31.
+ */
+static void find_rows(yb_frame_t *frame, const pose_t *pose, int32_t stray)
 {
     const yb_view_t *view = &frame->view;
-    int32_t up_x = -((pose->sin_a * pose->cos_b) >> 14);
-    int32_t up_y = -((pose->sin_a * pose->sin_b) >> 14);
-    int32_t back_x = (pose->cos_a * pose->cos_b) >> 14;
-    int32_t back_y = (pose->cos_a * pose->sin_b) >> 14;
-    for (int i = 0; i < frame->map->vertex_count; i++) {
-        const yb_vertex_t *v = &frame->map->vertex[i];
-        /* All within 2^22: a product is within 2^36, the results within 2^24. */
-        int64_t x = v->x_q8 - view->look_q8[0];
-        int64_t y = v->y_q8 - view->look_q8[1];
-        int64_t z = (((int64_t)v->z_q8 * view->exaggerate_q8) >> 8) - view->look_q8[2];
-        frame->seen[i].right_q8 = (int32_t)((y * pose->cos_b - x * pose->sin_b) >> 14);
-        frame->seen[i].up_q8 = (int32_t)((x * up_x + y * up_y + z * pose->cos_a) >> 14);
-        frame->seen[i].depth_q8 =
-            pose->distance - (int32_t)((x * back_x + y * back_y + z * pose->sin_a) >> 14);
-    }
-}
-
-/* The nearest depth of anything on a triangle's column, from the foot of the wall to the water. */
-static int32_t nearest_of(const yb_frame_t *frame, const yb_index_t corner[3])
-{
     const yb_map_t *map = frame->map;
-    relief_bound_t bound;
-    relief_bound(map, &map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
-                 &bound);
-    int32_t reach = relief_reach(map, &bound, 0);
-    int32_t nearest = INT32_MAX;
-    for (int k = 0; k < 3; k++) {
-        /* Height differences are below 2^19, lift at most 2^12. */
-        const int32_t z = map->vertex[corner[k]].z_q8;
-        int32_t down = z - fix_min(frame->base_q8, z - reach);
-        int32_t up = fix_max(frame->view.water_q8, z + reach) - z;
-        int32_t rise = frame->lift_back_q9 < 0 ? -down : up;
-        nearest = fix_min(nearest, frame->seen[corner[k]].depth_q8 -
-                                       (int32_t)(((int64_t)rise * frame->lift_back_q9) >> 9));
-    }
-    return nearest;
+    frame->right_x = -pose->sin_b;
+    frame->right_y = pose->cos_b;
+    frame->up_x = -((pose->sin_a * pose->cos_b) >> 14);
+    frame->up_y = -((pose->sin_a * pose->sin_b) >> 14);
+    frame->up_z = pose->cos_a;
+    frame->depth_x = -((pose->cos_a * pose->cos_b) >> 14);
+    frame->depth_y = -((pose->cos_a * pose->sin_b) >> 14);
+    frame->depth_z = -pose->sin_a;
+    /* Heights are below 2^19, times an exaggeration of 2^11. */
+    int32_t low = ((map->low_q8 - stray) * view->exaggerate_q8) >> 8;
+    int32_t high = ((map->high_q8 + stray) * view->exaggerate_q8) >> 8;
+    uint32_t all = (uint32_t)(fix_abs(view->eye_q8[0]) | fix_abs(map->east_q8 - view->eye_q8[0]) |
+                              fix_abs(view->eye_q8[1]) | fix_abs(map->north_q8 - view->eye_q8[1]) |
+                              fix_abs(low - view->eye_q8[2]) | fix_abs(high - view->eye_q8[2]));
+    frame->eye_shift = 0;
+    while (all >> frame->eye_shift >= (uint32_t)1 << 16)
+        frame->eye_shift++;
 }
 
 /* The frame's 16-bit depths are spread from the nearest thing on. */
-static void find_near(yb_frame_t *frame)
+static void find_near(yb_frame_t *frame, int32_t stray)
 {
     int32_t nearest = INT32_MAX;
-    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
-        nearest = fix_min(nearest, nearest_of(frame, frame->map->triangle[t]));
-    frame->near_q8 = fix_max(nearest - 1, NEAREST_Q8);
-    int shift = fix_log2_floor((uint32_t)frame->near_q8) - 14;
+    for (int i = 0; i < frame->map->vertex_count; i++) {
+        const yb_vertex_t *v = &frame->map->vertex[i];
+        camera_point_t at;
+        camera_view(frame, relief_place(v), v->z_q8, &at);
+        nearest = fix_min(nearest, at.depth);
+    }
+    int32_t lift = (fix_abs(frame->depth_z) * frame->view.exaggerate_q8) >> 8;
+    nearest -= (int32_t)(((int64_t)stray * lift) >> (14 + frame->eye_shift)) + 2;
+    frame->near = fix_max(nearest, fix_max(NEAREST_Q8 >> frame->eye_shift, LEAST_NEAR));
+    int shift = fix_log2_floor((uint32_t)frame->near) - 14;
     frame->near_shift = shift;
-    frame->near_scaled = shift >= 0 ? frame->near_q8 >> shift : frame->near_q8 * (1 << -shift);
+    frame->near_scaled = shift >= 0 ? frame->near >> shift : frame->near * (1 << -shift);
 }
 
-void camera_begin(yb_frame_t *frame)
+/* What a change of height does on the screen. A point at depth d has 65535 near / d in its spot, so
+ * r units of height times that are r / d times the constant 65535 near: a rise of r moves it up by
+ * focal * lift * r / d, and changes its depth by lift_z * r.
+ */
+static void find_lift(yb_frame_t *frame)
 {
-    yb_view_t *view = &frame->view;
-    const yb_screen_t *screen = &frame->screen;
-    clamp_view(view, screen);
+    int64_t lift = ((int64_t)frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits */
+    int64_t bend = ((int64_t)fix_abs(frame->depth_z) * frame->view.exaggerate_q8) >> 8;
+    uint64_t whole = (uint64_t)65535 * (uint32_t)frame->near << (14 + frame->eye_shift); /* 55 */
+    uint64_t most = bend > 0 ? whole / (uint64_t)(64 * bend) : INT32_MAX;
+    frame->most_bend = most < 1 << 28 ? (int32_t)most : 1 << 28;
+    /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
+    int64_t wide = frame->screen.width * 24;
+    int64_t high = frame->screen.height * 24;
+    uint64_t up = (uint64_t)(frame->focal_q4 * lift);
+    uint64_t part[3] = {up, (uint64_t)(wide * bend) * 8 / 7,
+                        (up + (uint64_t)(high * bend)) * 8 / 7};
+    int shift = 20;
+    while (whole >> 32 != 0) {
+        whole >>= 1;
+        shift++;
+    }
+    for (int i = 0; i < 3; i++) /* 35 bits and 20 more */
+        part[i] = ((part[i] << 20) + (i > 0 ? whole - 1 : 0)) / whole;
+    while (shift > 41 || part[0] >= 2047 || part[1] >= 2047 || part[2] >= 2047) {
+        part[0] >>= 1;
+        part[1] = (part[1] + 1) >> 1;
+        part[2] = (part[2] + 1) >> 1;
+        shift--;
+    }
+    frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
+    frame->lift = (int16_t)part[0];
+    frame->sway_x_q4 = (int32_t)part[1];
+    frame->sway_y_q4 = (int32_t)part[2];
+    frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
+}
+
+/* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees
+ * above the ground on not at all, on foot to a quarter, for hills rise above their ground. There
+ * triangles are wider too, so that they cover about as many pixels in every view.
+ */
+static void find_lengths(yb_frame_t *frame, const pose_t *pose)
+{
+    int32_t steep = fix_clamp(2 * fix_abs(pose->sin_a), 1 << 12, 1 << 14);
+    int32_t wide = (steep + (1 << 14)) >> 1;
+    int32_t high = (steep * wide) >> 14;
+    frame->along_x = (pose->cos_b * high) >> 15;
+    frame->along_y = (pose->sin_b * high) >> 15;
+    frame->across_x = (-pose->sin_b * wide) >> 15;
+    frame->across_y = (pose->cos_b * wide) >> 15;
+    /* focal * 2 length_q7 / depth > edge, with depth as 65535 near / (1/depth). */
+    uint32_t edge_q4 = frame->view.edge_q4;
+    if (edge_q4 == 0) /* a sixteenth of the width, and a little less */
+        edge_q4 = (uint32_t)fix_max(frame->screen.width - (frame->screen.width >> 6), 1);
+    uint64_t edge = (uint64_t)edge_q4 * 65535;
+    uint64_t longest =
+        (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
+    frame->longest = longest < UINT32_MAX ? (uint32_t)longest : UINT32_MAX;
+}
+
+void camera_begin(yb_frame_t *frame, int32_t stray)
+{
+    const yb_view_t *view = &frame->view;
     pose_t pose;
     find_pose(view, &pose);
-    frame->lift_up_q9 = (pose.cos_a * view->exaggerate_q8) >> 13;
-    frame->lift_back_q9 = (pose.sin_a * view->exaggerate_q8) >> 13;
-    /* The block stands on a quarter of its relief. */
-    int32_t relief = frame->map->high_q8 - frame->map->low_q8;
-    frame->base_q8 = frame->map->low_q8 - (relief >> 2) - 256;
     frame->focal_q4 =
-        fix_min((int32_t)(((uint32_t)screen->width * view->zoom_q12) >> 8), MOST_FOCAL_Q4);
-    int32_t edge = fix_max(view->edge_q4, 1);
-    frame->split_q4 = fix_clamp(frame->focal_q4 * 16 / edge, LEAST_SPLIT_Q4, MOST_SPLIT_Q4);
-    turn_vertices(frame, &pose);
-    find_near(frame);
+        fix_min((int32_t)(((uint32_t)frame->screen.width * view->zoom_q12) >> 8), MOST_FOCAL_Q4);
+    find_rows(frame, &pose, stray);
+    find_near(frame, stray);
+    find_lift(frame);
+    find_lengths(frame, &pose);
+    for (int i = 0; i < frame->map->vertex_count; i++) {
+        yb_point_t point;
+        camera_root(frame, (yb_index_t)i, &point);
+        camera_see(frame, &point);
+        frame->seen[i].x_q4 = (yb_side_t)point.spot.x_q4;
+        frame->seen[i].y_q4 = (yb_side_t)point.spot.y_q4;
+        frame->seen[i].near = (uint16_t)point.spot.near;
+    }
 }
 
 /* --- The screen ------------------------------------------------------------------------------- */
+
+void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
+{
+    const int32_t *eye = frame->view.eye_q8;
+    int32_t x = ((int32_t)(place & 0xffff) - eye[0]) >> frame->eye_shift;
+    int32_t y = ((int32_t)(place >> 16) - eye[1]) >> frame->eye_shift;
+    int32_t z = (((top_q8 * frame->view.exaggerate_q8) >> 8) - eye[2]) >> frame->eye_shift;
+    to->right = (x * frame->right_x + y * frame->right_y) >> 14;
+    to->up = (x * frame->up_x + y * frame->up_y + z * frame->up_z) >> 14;
+    to->depth = (x * frame->depth_x + y * frame->depth_y + z * frame->depth_z) >> 14;
+}
 
 static inline int32_t shifted(int32_t a, int shift)
 {
     return shift >= 0 ? a >> shift : a * (1 << -shift);
 }
 
-void camera_place(const yb_frame_t *frame, const yb_point_t *point, camera_point_t *place)
+/* Depth as d * 2^shift with 2^14 <= d < 2^15, and 2^29 / d: above 2^14 and at most 2^15. */
+static int32_t inverse_of(int32_t depth, int *shift)
 {
-    place->right_q8 = point->right_q8;
-    place->up_q8 = point->up_q8;
-    place->depth_q8 = point->depth_q8;
-    if (frame->view.water_q8 > point->at.z_q8) {
-        int64_t flood = frame->view.water_q8 - point->at.z_q8;
-        place->up_q8 += (int32_t)((flood * frame->lift_up_q9) >> 9);
-        place->depth_q8 -= (int32_t)((flood * frame->lift_back_q9) >> 9);
-    }
+    *shift = fix_log2_floor((uint32_t)depth) - 14;
+    return fix_reciprocal(shifted(depth, *shift));
 }
 
-void camera_project(const yb_frame_t *frame, const camera_point_t *place, raster_point_t *screen)
+/* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
+static int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
 {
-    /* depth = d * 2^shift with d of 15 bits, so 2^29 / d has as many. |right| < 2 depth keeps
-     * right / d * 2^29 within 2^30 + 2^16 however d was rounded, and x within 2^15 + 2: times
-     * MOST_FOCAL_Q4 that is below 2^31. */
-    int shift = fix_log2_floor((uint32_t)place->depth_q8) - 14;
-    int32_t inverse = ((int32_t)1 << 29) / shifted(place->depth_q8, shift);
-    int32_t x = (shifted(place->right_q8, shift) * inverse) >> 15; /* Q14, within 2^15 */
-    int32_t y = (shifted(place->up_q8, shift) * inverse) >> 15;
-    screen->x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
-    screen->y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
-    /* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
     int32_t ratio = (frame->near_scaled * inverse) >> (13 + shift - frame->near_shift);
-    screen->near = fix_clamp(ratio, 1, 65535);
+    return fix_clamp(ratio, 1, 65535);
+}
+
+int32_t camera_near(const yb_frame_t *frame, int32_t depth)
+{
+    int shift;
+    int32_t inverse = inverse_of(depth, &shift);
+    return near_ratio(frame, inverse, shift);
+}
+
+void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot)
+{
+    /* right and up are at most 2 depth and some units, which are a 32nd of the least depth: x is
+     * within 1.05 * 2^15, and times MOST_FOCAL_Q4 below 2^31. */
+    int shift;
+    int32_t inverse = inverse_of(from->depth, &shift);
+    int32_t x = (shifted(from->right, shift) * inverse) >> 15; /* Q14 */
+    int32_t y = (shifted(from->up, shift) * inverse) >> 15;
+    spot->x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
+    spot->y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
+    spot->near = near_ratio(frame, inverse, shift);
 }
 
 void camera_see(const yb_frame_t *frame, yb_point_t *point)
 {
-    camera_point_t place;
-    camera_place(frame, point, &place);
-    point->visible = place.depth_q8 >= frame->near_q8 &&
-                     fix_abs(place.right_q8) < 2 * place.depth_q8 &&
-                     fix_abs(place.up_q8) < 2 * place.depth_q8;
-    if (!point->visible)
+    camera_point_t at;
+    camera_view(frame, point->place, point->top_q8, &at);
+    point->spot = (yb_spot_t){0, INT32_MIN, 0};
+    if (at.depth < frame->near || fix_abs(at.right) >= 2 * at.depth ||
+        fix_abs(at.up) >= 2 * at.depth)
         return;
-    raster_point_t screen;
-    camera_project(frame, &place, &screen);
-    point->x_q4 = screen.x_q4;
-    point->y_q4 = screen.y_q4;
-    point->near = (uint16_t)screen.near;
+    yb_spot_t spot;
+    camera_project(frame, &at, &spot);
+    uint32_t wide = frame->screen.width * (uint32_t)16;
+    uint32_t high = frame->screen.height * (uint32_t)16;
+    if ((uint32_t)spot.x_q4 + wide <= 3 * wide && (uint32_t)spot.y_q4 + high <= 3 * high)
+        point->spot = spot;
+}
+
+void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
+{
+    const yb_vertex_t *v = &frame->map->vertex[i];
+    const yb_seen_t *seen = &frame->seen[i];
+    point->place = relief_place(v);
+    point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
+    point->z_q8 = v->z_q8;
+    point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
+    point->spot = (yb_spot_t){seen->x_q4, seen->near > 0 ? seen->y_q4 : INT32_MIN, seen->near};
 }
 
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)
 {
-    int64_t rise = z_q8 - point->at.z_q8; /* below 2^20, the lift up to 2^12 */
     *to = *point;
-    to->at.z_q8 = INT32_MAX; /* above any water: it stays where it is */
-    to->up_q8 += (int32_t)((rise * frame->lift_up_q9) >> 9);
-    to->depth_q8 -= (int32_t)((rise * frame->lift_back_q9) >> 9);
+    to->z_q8 = to->top_q8 = z_q8;
     camera_see(frame, to);
 }

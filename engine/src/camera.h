@@ -1,31 +1,40 @@
 /* The camera (colour paper): from the map's axes to the view's, and on to the screen.
  *
- * View space: right, up and depth, in q8 steps from the eye. "Visible" is what lies beyond the near
- * distance and in the pyramid |right|, |up| < 2 depth, which holds the picture: there a point can
- * be projected with 32-bit arithmetic.
+ * View space: right, up and depth from the eye, in q8 steps >> frame->eye_shift. A point has a spot
+ * on the screen if it lies beyond the near distance, within a screen size of the screen and where
+ * |right|, |up| < 2 depth: there 32-bit arithmetic projects it, and the rasteriser takes it.
  */
 #ifndef YB_CAMERA_H
 #define YB_CAMERA_H
 
 #include <yamabiko/yamabiko.h>
 
-#include "raster.h"
-
 typedef struct {
-    int32_t right_q8, up_q8, depth_q8;
+    int32_t right, up, depth; /* within 2^17 */
 } camera_point_t;
 
-/* Fills in frame's camera constants and turns all vertices of the map: frame->seen. */
-void camera_begin(yb_frame_t *frame);
+/* Cuts frame's view to its limits: see yb_view_t. */
+void camera_clamp(yb_frame_t *frame);
 
-/* Where a point of the surface is seen: itself, or the water above it. */
-void camera_place(const yb_frame_t *frame, const yb_point_t *point, camera_point_t *place);
+/* Fills in frame's camera constants. No refinement and no wall moves a point by more than `stray`
+ * from the mesh. After it frame->seen has the map's vertices.
+ */
+void camera_begin(yb_frame_t *frame, int32_t stray);
 
-/* A visible place on the screen (also one that rounding put just outside). */
-void camera_project(const yb_frame_t *frame, const camera_point_t *place, raster_point_t *screen);
+/* Where a place of the map at height top_q8 lies in view space. */
+void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to);
 
-/* Sets a point's screen position and whether it is visible, from its view position. */
+/* 1/depth as in a spot, at the near distance or beyond. */
+int32_t camera_near(const yb_frame_t *frame, int32_t depth);
+
+/* A place in view space on the screen; beyond the near distance, |right|, |up| <= 2 depth. */
+void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot);
+
+/* Sets a point's spot from its place and top. */
 void camera_see(const yb_frame_t *frame, yb_point_t *point);
+
+/* Vertex i of the map as a point. */
+void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point);
 
 /* The point straight above or below `point` at height z, to be drawn there, under water or not. */
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to);

@@ -79,6 +79,9 @@ int32_t fix_log2_q11(uint64_t a);
 /* 2^(e/2048), rounded, at most UINT32_MAX; relative error below 2^-11 where the result is large. */
 uint32_t fix_exp2_q11(int32_t e_q11);
 
+/* 2^29 / a for 2^14 <= a < 2^15, within 3: above 2^14, at most 2^15. */
+int32_t fix_reciprocal(int32_t a);
+
 /* Whole square root, rounded down. */
 uint32_t fix_sqrt(uint64_t a);
 

@@ -4,11 +4,17 @@
 #include "camera.h"
 #include "fix.h"
 #include "refine.h"
+#include "relief.h"
 #include "shade.h"
 
-static bool on_screen(const yb_frame_t *frame, yb_triangle_t triangle)
+/* May a base triangle touch the rows from first up to end? One that is not on the screen has its
+ * last bin before the first.
+ */
+static bool in_rows(const yb_frame_t *frame, yb_triangle_t triangle, int32_t first, int32_t end)
 {
-    return frame->first_row[triangle] <= frame->last_row[triangle];
+    int bins = frame->rows[triangle];
+    return bins >> 4 <= (end - 1) >> frame->row_shift && (bins & 15) >= first >> frame->row_shift &&
+           bins >> 4 <= (bins & 15);
 }
 
 /* Raises the threshold of refinement until the frame keeps to its bound. The count depends on the
@@ -16,17 +22,38 @@ static bool on_screen(const yb_frame_t *frame, yb_triangle_t triangle)
  */
 static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
-    while (frame->view.max_leaves > 0 && frame->split_q4 > 0) {
+    while (frame->view.max_leaves > 0) {
         frame->stats.refined = 0;
         for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
-            if (on_screen(frame, t))
+            if (in_rows(frame, t, 0, frame->screen.height))
                 refine_draw(frame, whole, NULL, t);
         }
-        if (frame->stats.refined <= frame->view.max_leaves)
+        if (frame->stats.refined <= frame->view.max_leaves || frame->longest == UINT32_MAX)
             break;
-        frame->split_q4 = frame->split_q4 * 3 / 4; /* in the end 0: no edge is split */
+        uint32_t more = (frame->longest >> 2) + (frame->longest >> 3) + 1;
+        frame->longest = frame->longest > UINT32_MAX - more ? UINT32_MAX : frame->longest + more;
     }
     memset(&frame->stats, 0, sizeof frame->stats);
+}
+
+/* Farthest that anything drawn is from the mesh in height: refined ground, walls, water. */
+static int32_t farthest_stray(yb_frame_t *frame)
+{
+    const yb_map_t *map = frame->map;
+    int32_t farthest = 0;
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+        const yb_index_t *corner = map->triangle[t];
+        relief_bound_t bound;
+        relief_bound(map, &map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
+                     &bound);
+        farthest = fix_max(farthest, relief_reach(map, &bound, 0));
+    }
+    /* The block stands on a quarter of its relief. */
+    int32_t relief = map->high_q8 - map->low_q8;
+    frame->base_q8 = map->low_q8 - (relief >> 2) - 256;
+    if (frame->view.walls)
+        farthest = fix_max(farthest, map->high_q8 + farthest - frame->base_q8);
+    return fix_max(farthest, frame->view.water_q8 - fix_min(map->low_q8, frame->view.water_q8));
 }
 
 void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,
@@ -36,12 +63,19 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->map = map;
     frame->view = *view;
     frame->screen = *screen;
-    camera_begin(frame);
+    camera_clamp(frame);
+    camera_begin(frame, farthest_stray(frame));
     shade_begin(frame);
+    frame->row_shift = 0;
+    while ((screen->height - 1) >> frame->row_shift > 15)
+        frame->row_shift++;
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++)
+    memset(frame->rim, 0, sizeof frame->rim);
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         refine_bin(frame, &whole, t);
+        walls_bin(frame, t);
+    }
     bound_leaves(frame, &whole);
 }
 
@@ -59,8 +93,7 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     refine_see(frame, raster.first_row, raster.end_row, &view);
     raster_clear(&raster, shade_background(frame));
     for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
-        if (on_screen(frame, t) && frame->first_row[t] <= (raster.end_row - 1) >> YB_ROW_SHIFT &&
-            frame->last_row[t] >= raster.first_row >> YB_ROW_SHIFT)
+        if (in_rows(frame, t, raster.first_row, raster.end_row))
             refine_draw(frame, &view, &raster, t);
     }
     if (frame->view.walls)

@@ -4,27 +4,22 @@
 
 #include "fix.h"
 
-static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, uint16_t pixel)
-{
-    if (raster->screen->format == YB_RGB565) {
-        row[2 * x] = (uint8_t)(pixel >> 8);
-        row[2 * x + 1] = (uint8_t)pixel;
-    } else if ((x & 1) == 0) {
-        row[x >> 1] = (uint8_t)((row[x >> 1] & 0x0f) | pixel << 4);
-    } else {
-        row[x >> 1] = (uint8_t)((row[x >> 1] & 0xf0) | pixel);
-    }
-}
-
 void raster_clear(const raster_t *raster, uint16_t pixel)
 {
     const yb_band_t *band = raster->band;
-    int32_t width = raster->screen->width;
-    int32_t rows = raster->end_row - raster->first_row;
-    memset(band->depth, 0, (size_t)(rows * width) * sizeof *band->depth);
-    for (int32_t y = 0; y < rows; y++) {
-        for (int32_t x = 0; x < width; x++)
-            put_pixel(raster, band->pixels + (size_t)y * band->pitch, x, pixel);
+    size_t width = raster->screen->width;
+    size_t rows = (size_t)(raster->end_row - raster->first_row);
+    memset(band->depth, 0, rows * width * sizeof *band->depth);
+    uint8_t *row = band->pixels;
+    for (; rows > 0; rows--, row += band->pitch) {
+        if (raster->screen->format == YB_GREY4) {
+            memset(row, (int)(pixel * 17), width / 2);
+            continue;
+        }
+        for (size_t x = 0; x < width; x++) {
+            row[2 * x] = (uint8_t)(pixel >> 8);
+            row[2 * x + 1] = (uint8_t)pixel;
+        }
     }
 }
 
@@ -52,20 +47,19 @@ static int32_t ratio_q18(int32_t a, int32_t b)
  * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on
  * that its gradient must be cut would get depths far from its own: it is taken as flat.
  */
-static void depth_gradient(const raster_point_t p[3], raster_area_t area, int32_t *along_x,
-                           int32_t *along_y)
+static void depth_gradient(const yb_spot_t *const p[3], int32_t *along_x, int32_t *along_y)
 {
-    int32_t x1 = p[1].x_q4 - p[0].x_q4;
-    int32_t y1 = p[1].y_q4 - p[0].y_q4;
-    int32_t x2 = p[2].x_q4 - p[0].x_q4;
-    int32_t y2 = p[2].y_q4 - p[0].y_q4;
+    int32_t x1 = p[1]->x_q4 - p[0]->x_q4;
+    int32_t y1 = p[1]->y_q4 - p[0]->y_q4;
+    int32_t x2 = p[2]->x_q4 - p[0]->x_q4;
+    int32_t y2 = p[2]->y_q4 - p[0]->y_q4;
     uint32_t all = (uint32_t)(fix_abs(x1) | fix_abs(y1) | fix_abs(x2) | fix_abs(y2));
     int shift = 0;
     while (all >> shift >= 1u << 13)
         shift++;
-    int32_t d1 = p[1].near - p[0].near;
-    int32_t d2 = p[2].near - p[0].near;
-    int32_t size = (int32_t)(area >> shift);
+    int32_t d1 = p[1]->near - p[0]->near;
+    int32_t d2 = p[2]->near - p[0]->near;
+    int32_t size = (int32_t)(((raster_area_t)x1 * y2 - (raster_area_t)y1 * x2) >> shift);
     *along_x = *along_y = 0;
     if (size > 0) {
         *along_x = ratio_q18(d1 * (y2 >> shift) - d2 * (y1 >> shift), size);
@@ -75,32 +69,62 @@ static void depth_gradient(const raster_point_t p[3], raster_area_t area, int32_
         *along_x = *along_y = 0;
 }
 
-/* --- The pixels ------------------------------------------------------------------------------- */
+/* --- Edges ------------------------------------------------------------------------------------ */
 
-/* The side of an edge on which a point lies, as it changes along a row and from row to row. */
+/* Where an edge crosses a row of pixels: the first whose centre is on the edge or right of it. It
+ * goes with the edge from row to row, in whole pixels: no division, and exact. Both triangles at an
+ * edge come to the same pixel, which is where the one ends and the other begins.
+ */
 typedef struct {
-    raster_area_t value; /* >= 0 inside */
-    raster_area_t along_x, along_y;
+    raster_area_t side;         /* of the pixel x: 0 <= side < across once edge_settle is done */
+    raster_area_t across, down; /* what a step right adds, and a step down takes off */
+    int32_t x;
 } edge_t;
 
-/* From p to q, at the centre of the pixel (x, y). */
-static void edge_set(edge_t *edge, const raster_point_t *p, const raster_point_t *q, int32_t x,
-                     int32_t y)
+static inline void edge_settle(edge_t *edge)
+{
+    while (edge->side < 0) {
+        edge->side += edge->across;
+        edge->x++;
+    }
+    while (edge->side >= edge->across) {
+        edge->side -= edge->across;
+        edge->x--;
+    }
+}
+
+/* From p down to q, at the row y, which it crosses. */
+static inline void edge_start(edge_t *edge, const yb_spot_t *p, const yb_spot_t *q, int32_t y)
 {
     int32_t dx = q->x_q4 - p->x_q4;
     int32_t dy = q->y_q4 - p->y_q4;
-    bool top_left = dy < 0 || (dy == 0 && dx > 0);
-    edge->value =
-        (raster_area_t)dx * (y * 16 + 8 - p->y_q4) - (raster_area_t)dy * (x * 16 + 8 - p->x_q4);
-    edge->value -= top_left ? 0 : 1;
-    edge->along_x = -(raster_area_t)dy * 16;
-    edge->along_y = (raster_area_t)dx * 16;
+    edge->x = raster_pixel(p->x_q4);
+    edge->side = (raster_area_t)(edge->x * 16 + 8 - p->x_q4) * dy -
+                 (raster_area_t)(y * 16 + 8 - p->y_q4) * dx;
+    edge->across = (raster_area_t)dy * 16;
+    edge->down = (raster_area_t)dx * 16;
 }
 
-/* First pixel whose centre is at or right of (below) a coordinate. */
-static inline int32_t first_pixel(int32_t q4)
+/* --- The pixels ------------------------------------------------------------------------------- */
+
+typedef struct {
+    uint32_t near_q14; /* 1/depth at a pixel */
+    int32_t along_x, along_y;
+} plane_t;
+
+/* 1/depth at the pixel (0, y). */
+static void plane_start(plane_t *plane, const yb_spot_t *const p[3], int32_t y)
 {
-    return (q4 + 7) >> 4;
+    depth_gradient(p, &plane->along_x, &plane->along_y);
+    /* From corner 0, whole pixels to where this band begins: the same depth in every band.
+     * Unsigned: partial sums may wrap, the depth inside the triangle does not. */
+    int32_t x0 = raster_pixel(p[0]->x_q4);
+    int32_t y0 = raster_pixel(p[0]->y_q4);
+    plane->near_q14 = ((uint32_t)p[0]->near << 14) + ((uint32_t)1 << 13) +
+                      (uint32_t)(plane->along_x >> 4) * (uint32_t)(x0 * 16 + 8 - p[0]->x_q4) +
+                      (uint32_t)(plane->along_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0]->y_q4) -
+                      (uint32_t)plane->along_x * (uint32_t)x0 +
+                      (uint32_t)plane->along_y * (uint32_t)(y - y0);
 }
 
 static inline uint16_t depth_of(uint32_t near_q14)
@@ -108,69 +132,125 @@ static inline uint16_t depth_of(uint32_t near_q14)
     return (uint16_t)fix_clamp((int32_t)near_q14 >> 14, 1, 65535);
 }
 
-bool raster_setup(const raster_t *raster, const raster_point_t corner[3], raster_setup_t *setup)
+static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, uint16_t pixel)
 {
-    /* y points down, so a counter-clockwise triangle is clockwise here: swap two corners. */
-    const raster_point_t *a = &corner[0];
-    const raster_point_t *b = &corner[2];
-    const raster_point_t *c = &corner[1];
-    int32_t left = fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4));
-    int32_t right = fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4));
-    int32_t top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
-    int32_t bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
-    setup->x0 = fix_max(first_pixel(left), 0);
-    setup->x1 = fix_min(first_pixel(right + 1), raster->screen->width);
-    setup->y0 = fix_max(first_pixel(top), raster->first_row);
-    setup->y1 = fix_min(first_pixel(bottom + 1), raster->end_row);
-    if (setup->x0 >= setup->x1 || setup->y0 >= setup->y1)
-        return false;
-    setup->area = (raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
-                  (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4);
-    setup->p[0] = *a;
-    setup->p[1] = *b;
-    setup->p[2] = *c;
-    return setup->area > 0;
+    if (raster->screen->format == YB_RGB565) {
+        row[2 * x] = (uint8_t)(pixel >> 8);
+        row[2 * x + 1] = (uint8_t)pixel;
+    } else if ((x & 1) == 0) {
+        row[x >> 1] = (uint8_t)((row[x >> 1] & 0x0f) | pixel << 4);
+    } else {
+        row[x >> 1] = (uint8_t)((row[x >> 1] & 0xf0) | pixel);
+    }
 }
 
-void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t pixel)
+/* The pixels from x up to end of a row. */
+static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x, int32_t end,
+                      const plane_t *plane, uint16_t pixel)
 {
-    const raster_point_t *p = setup->p;
-    edge_t edge[3];
-    for (int i = 0; i < 3; i++)
-        edge_set(&edge[i], &p[i], &p[i == 2 ? 0 : i + 1], setup->x0, setup->y0);
-    int32_t near_x = 0;
-    int32_t near_y = 0;
-    depth_gradient(p, setup->area, &near_x, &near_y);
-    /* From the first pixel of corner 0, whole pixels to where this band begins: the same depth in
-     * every band. Unsigned: partial sums may wrap, the depth inside the triangle does not. */
-    int32_t x = first_pixel(p[0].x_q4);
-    int32_t y = first_pixel(p[0].y_q4);
-    uint32_t near = ((uint32_t)p[0].near << 14) + (1u << 13) +
-                    (uint32_t)(near_x >> 4) * (uint32_t)(x * 16 + 8 - p[0].x_q4) +
-                    (uint32_t)(near_y >> 4) * (uint32_t)(y * 16 + 8 - p[0].y_q4) +
-                    (uint32_t)near_x * (uint32_t)(setup->x0 - x) +
-                    (uint32_t)near_y * (uint32_t)(setup->y0 - y);
-    const yb_band_t *band = raster->band;
-    for (y = setup->y0; y < setup->y1; y++) {
-        int32_t line = y - raster->first_row;
-        uint16_t *depth = band->depth + line * raster->screen->width;
-        uint8_t *row = band->pixels + (size_t)line * band->pitch;
-        raster_area_t a = edge[0].value;
-        raster_area_t b = edge[1].value;
-        raster_area_t c = edge[2].value;
-        uint32_t here = near;
-        for (x = setup->x0; x < setup->x1; x++) {
-            if ((a | b | c) >= 0 && depth_of(here) > depth[x]) {
-                depth[x] = depth_of(here);
-                put_pixel(raster, row, x, pixel);
-            }
-            a += edge[0].along_x;
-            b += edge[1].along_x;
-            c += edge[2].along_x;
-            here += (uint32_t)near_x;
+    uint32_t near = plane->near_q14 + (uint32_t)plane->along_x * (uint32_t)x;
+    for (; x < end; x++, near += (uint32_t)plane->along_x) {
+        if (depth_of(near) > depth[x]) {
+            depth[x] = depth_of(near);
+            put_pixel(raster, row, x, pixel);
         }
-        for (int i = 0; i < 3; i++)
-            edge[i].value += edge[i].along_y;
-        near += (uint32_t)near_y;
     }
+}
+
+/* As draw_span, at one depth. */
+static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x,
+                              int32_t end, uint16_t near, uint16_t pixel)
+{
+    if (raster->screen->format == YB_RGB565) {
+        for (; x < end; x++) {
+            if (near > depth[x]) {
+                depth[x] = near;
+                row[2 * x] = (uint8_t)(pixel >> 8);
+                row[2 * x + 1] = (uint8_t)pixel;
+            }
+        }
+        return;
+    }
+    for (; x < end; x++) {
+        if (near > depth[x]) {
+            uint8_t *at = &row[x >> 1];
+            depth[x] = near;
+            *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
+        }
+    }
+}
+
+void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                 raster_look_t look, uint16_t pixel)
+{
+    /* Clockwise from the topmost: down the right side by p[1], down the left one by p[2]. One of
+     * them is the lowest. */
+    const yb_spot_t *p[3] = {a, c, b};
+    if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
+        p[0] = b;
+        p[1] = a;
+        p[2] = c;
+    } else if (c->y_q4 < a->y_q4) {
+        p[0] = c;
+        p[1] = b;
+        p[2] = a;
+    }
+    int32_t y = fix_max(raster_pixel(p[0]->y_q4), raster->first_row);
+    int32_t right_turn = raster_pixel(p[1]->y_q4);
+    int32_t left_turn = raster_pixel(p[2]->y_q4);
+    int32_t end_y = fix_min(fix_max(right_turn, left_turn), raster->end_row);
+    plane_t plane = {0, 0, 0};
+    /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
+    uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
+    uint16_t near = (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
+    if (look == RASTER_FRONT)
+        plane_start(&plane, p, y);
+    int32_t line = y - raster->first_row;
+    uint16_t *depth = raster->band->depth + line * raster->screen->width;
+    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
+    /* Each side starts here; where it turns it starts again with the other edge. */
+    bool right_second = right_turn <= y;
+    bool left_second = left_turn <= y;
+    int32_t right_start = y;
+    int32_t left_start = y;
+    edge_t left = {0, 0, 0, 0};
+    edge_t right = {0, 0, 0, 0};
+    for (;;) {
+        if (y == right_start) {
+            edge_start(&right, right_second ? p[1] : p[0], right_second ? p[2] : p[1], y);
+            right_start = right_turn;
+            right_second = true;
+        } else {
+            right.side -= right.down;
+        }
+        edge_settle(&right);
+        if (y == left_start) {
+            edge_start(&left, left_second ? p[2] : p[0], left_second ? p[1] : p[2], y);
+            left_start = left_turn;
+            left_second = true;
+        } else {
+            left.side -= left.down;
+        }
+        edge_settle(&left);
+        int32_t x = fix_max(left.x, 0);
+        int32_t end = fix_min(right.x, raster->screen->width);
+        if (look != RASTER_FRONT)
+            draw_level(raster, depth, row, x, end, near, pixel);
+        else
+            draw_span(raster, depth, row, x, end, &plane, pixel);
+        if (++y >= end_y)
+            return;
+        plane.near_q14 += (uint32_t)plane.along_y;
+        depth += raster->screen->width;
+        row += raster->band->pitch;
+    }
+}
+
+raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                          const yb_spot_t *c, uint16_t pixel)
+{
+    raster_look_t look = raster_look(raster, a, b, c);
+    if (look == RASTER_FRONT || look == RASTER_SMALL)
+        raster_fill(raster, a, b, c, look, pixel);
+    return look;
 }

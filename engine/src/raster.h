@@ -20,32 +20,63 @@ typedef struct {
     int32_t first_row, end_row; /* of the screen */
 } raster_t;
 
-/* A corner on the screen: 1/16 pixel, x to the right and y down, and 1/depth. */
-typedef struct {
-    int32_t x_q4, y_q4;
-    int32_t near;
-} raster_point_t;
-
 /* Clears the band's depths and fills it with one pixel value. */
 void raster_clear(const raster_t *raster, uint16_t pixel);
 
-/* A triangle ready to be filled. */
-typedef struct {
-    raster_point_t p[3]; /* clockwise, as y points down */
-    raster_area_t area;  /* twice its area */
-    int32_t x0, x1;      /* columns and rows that it may touch, ends excluded */
-    int32_t y0, y1;
-} raster_setup_t;
+/* First pixel whose centre is at or right of (below) a coordinate. */
+static inline int32_t raster_pixel(int32_t q4)
+{
+    return (q4 + 7) >> 4;
+}
 
-/* Looks at a triangle: false if it is seen from behind or no pixel of the band is near it. Its
- * coordinates lie within one screen size of the screen.
- */
-bool raster_setup(const raster_t *raster, const raster_point_t corner[3], raster_setup_t *setup);
+enum {
+    RASTER_LEVEL = 16
+};
 
-/* Draws it in one pixel value where it is nearer than what is there. A pixel is covered if its
- * centre is inside, or on a top or left edge: pixels along the common edge of two triangles are
- * drawn once, none is left out.
+typedef enum {
+    RASTER_NOTHING, /* seen from behind, or the box round it meets no pixel's centre in the band */
+    RASTER_FRONT,
+    RASTER_SMALL, /* and not larger than RASTER_LEVEL pixels: drawn at one depth */
+    RASTER_BEYOND /* a corner has no spot: it must be clipped */
+} raster_look_t;
+
+/* Looks at a triangle, counter-clockwise from the front. */
+static inline raster_look_t raster_look(const raster_t *raster, const yb_spot_t *a,
+                                        const yb_spot_t *b, const yb_spot_t *c)
+{
+    int32_t top = a->y_q4 < b->y_q4 ? a->y_q4 : b->y_q4;
+    int32_t bottom = a->y_q4 < b->y_q4 ? b->y_q4 : a->y_q4;
+    top = c->y_q4 < top ? c->y_q4 : top;
+    bottom = c->y_q4 > bottom ? c->y_q4 : bottom;
+    if (top == INT32_MIN)
+        return RASTER_BEYOND;
+    int32_t y0 = raster_pixel(top);
+    int32_t y1 = raster_pixel(bottom);
+    if (y0 >= y1 || y0 >= raster->end_row || y1 <= raster->first_row)
+        return RASTER_NOTHING;
+    /* y points down: a front, counter-clockwise with y up, is negative here. */
+    if ((raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
+            (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4) >=
+        0)
+        return RASTER_NOTHING;
+    int32_t left = a->x_q4 < b->x_q4 ? a->x_q4 : b->x_q4;
+    int32_t right = a->x_q4 < b->x_q4 ? b->x_q4 : a->x_q4;
+    left = raster_pixel(c->x_q4 < left ? c->x_q4 : left);
+    right = raster_pixel(c->x_q4 > right ? c->x_q4 : right);
+    if (left >= right || left >= raster->screen->width || right <= 0)
+        return RASTER_NOTHING;
+    return right - left > RASTER_LEVEL || y1 - y0 > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
+}
+
+/* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
+ * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
+ * edge: pixels along the common edge of two triangles are drawn once, none is left out.
  */
-void raster_fill(const raster_t *raster, const raster_setup_t *setup, uint16_t pixel);
+void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                 raster_look_t look, uint16_t pixel);
+
+/* Both: looks, and draws what is in front. */
+raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                          const yb_spot_t *c, uint16_t pixel);
 
 #endif

@@ -5,120 +5,116 @@
 #include "fix.h"
 #include "relief.h"
 #include "shade.h"
-#include "split.h"
 
-/* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
-static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+/* --- Edges ------------------------------------------------------------------------------------ */
+
+static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)
 {
-    int32_t highest = fix_max(a->at.z_q8, b->at.z_q8);
-    if (highest >= frame->view.water_q8)
-        return false;
-    relief_bound_t bound;
-    relief_bound(frame->map, &a->at, &b->at, &b->at, &bound);
-    return highest + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
+    return relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope),
+                        relief_dx(a->place, b->place), relief_dy(a->place, b->place));
 }
 
-bool refine_splits(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+/* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
+static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b, int class)
 {
-    int32_t dx = fix_minus(b->at.x_q8, a->at.x_q8);
-    int32_t dy = fix_minus(b->at.y_q8, a->at.y_q8);
-    if (!relief_splits(dx, dy))
-        return false;
-    /* By plan length over the nearest depth; both ends as they are, unclipped. Length < 2^17 and
-     * split_q4 < 2^14; depth < 2^24. */
-    int32_t depth = fix_max(fix_min(a->depth_q8, b->depth_q8), frame->near_q8);
-    return fix_length(dx, dy) * frame->split_q4 > depth << 4 && !drowned(frame, a, b);
+    int32_t rise = fix_abs(bulge_of(a, b));
+    const relief_bound_t bound = {rise + (rise >> 1) + 16, class};
+    return fix_max(a->z_q8, b->z_q8) + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
+}
+
+/* The nearest of an edge's ends, as 1/depth. Beyond the near distance, for what is behind it. */
+static int32_t nearest(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+{
+    camera_point_t at[2];
+    camera_view(frame, a->place, a->top_q8, &at[0]);
+    camera_view(frame, b->place, b->top_q8, &at[1]);
+    return camera_near(frame, fix_max(fix_min(at[0].depth, at[1].depth), frame->near));
+}
+
+/* Length and 1/depth have 16 bits each. With 1/depth from v to w > v, the middle of an edge of s
+ * pixels is seen s/2 (w - v) / (w + v) from the middle of its spots. Where w - v is no more than a
+ * quarter of w, nor s (w - v) more than 2 w, that is at most 16/7/4 pixel, and a quarter of it for
+ * its halves: 0.77 in all (SPARE_Q4), and one number will do for all of the edge.
+ */
+yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                     yb_edge_t edge)
+{
+    int32_t change = fix_abs(a->spot.near - b->spot.near);
+    int32_t near = fix_max(a->spot.near, b->spot.near);
+    bool seen = change < near;
+    if (!seen)
+        near = nearest(frame, a, b);
+    edge &= 0xffffff;
+    uint32_t size = (edge & 0xffff) * (uint32_t)near;
+    if (size <= frame->longest)
+        return edge;
+    uint32_t parity = a->place ^ b->place;
+    parity |= parity >> 16;
+    yb_edge_t asked = edge;
+    for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
+        asked += REFINE_ONCE;
+    if (asked == edge || (fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
+                          drowned(frame, a, b, refine_class(edge))))
+        return edge;
+    int32_t wide = fix_abs(a->spot.x_q4 - b->spot.x_q4);
+    int32_t high = fix_abs(a->spot.y_q4 - b->spot.y_q4);
+    return seen && change << 2 <= near && (fix_max(wide, high) >> 4) * change <= 2 * near
+               ? asked
+               : edge | REFINE_AGAIN;
+}
+
+yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+{
+    int32_t dx = relief_dx(a->place, b->place);
+    int32_t dy = relief_dy(a->place, b->place);
+    /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
+    int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
+    int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
+    return refine_ask(frame, a, b,
+                      (yb_edge_t)fix_length(across, along) | (yb_edge_t)(relief_class(dx, dy) + 4)
+                                                                 << 16);
+}
+
+/* Each half's mean of two numbers, rounded down. */
+static inline uint32_t mean2(uint32_t a, uint32_t b)
+{
+    return (a & b) + ((a ^ b) >> 1 & 0x7fff7fff);
 }
 
 void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   yb_point_t *middle)
+                   yb_edge_t edge, yb_point_t *middle)
 {
-    relief_middle(frame->map, &a->at, &b->at, &middle->at);
-    /* Half way between the ends, and up by what the midpoint strays from the chord: within 2^18,
-     * times the lift's 2^12. */
-    int32_t rise = middle->at.z_q8 - ((a->at.z_q8 + b->at.z_q8) >> 1);
-    middle->right_q8 = (a->right_q8 + b->right_q8) >> 1;
-    middle->up_q8 = ((a->up_q8 + b->up_q8) >> 1) + ((rise * frame->lift_up_q9) >> 9);
-    middle->depth_q8 = ((a->depth_q8 + b->depth_q8) >> 1) - ((rise * frame->lift_back_q9) >> 9);
+    const yb_map_t *map = frame->map;
+    int32_t dx = relief_dx(a->place, b->place);
+    int32_t dy = relief_dy(a->place, b->place);
+    int32_t z = (a->z_q8 + b->z_q8) >> 1;
+    if (map->smooth)
+        z += relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy);
+    middle->place = mean2(a->place, b->place);
+    middle->slope = mean2(a->slope, b->slope);
+    z += relief_rough(map, middle->place, refine_class(edge), dx, dy, b->z_q8 - a->z_q8);
+    middle->z_q8 = z;
+    middle->top_q8 = fix_max(z, frame->view.water_q8);
+    int32_t rise = middle->top_q8 - ((a->top_q8 + b->top_q8) >> 1);
+    /* Half way between the ends' spots, and up by the rise. What needs more than that, and what
+     * comes to lie more than a screen size off, is placed exactly. */
+    if (edge < REFINE_AGAIN && a->spot.near > 0 && b->spot.near > 0 && fix_abs(rise) < 1 << 14) {
+        int32_t near = (a->spot.near + b->spot.near) >> 1;
+        int32_t turn = rise * near; /* below 2^30 */
+        int32_t y = ((a->spot.y_q4 + b->spot.y_q4) >> 1) -
+                    ((turn >> 10) * frame->lift >> frame->lift_shift);
+        uint32_t high = frame->screen.height * (uint32_t)16;
+        if (fix_abs(turn) <= frame->most_bend && (uint32_t)y + high <= 3 * high) {
+            middle->spot.x_q4 = (a->spot.x_q4 + b->spot.x_q4) >> 1;
+            middle->spot.y_q4 = y;
+            middle->spot.near = near;
+            return;
+        }
+    }
     camera_see(frame, middle);
 }
 
-void refine_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
-{
-    point->at = frame->map->vertex[i];
-    point->right_q8 = frame->seen[i].right_q8;
-    point->up_q8 = frame->seen[i].up_q8;
-    point->depth_q8 = frame->seen[i].depth_q8;
-    camera_see(frame, point);
-}
-
 /* --- What lies outside the picture ------------------------------------------------------------ */
-
-/* A plane of the pyramid that a band is seen through: inside is across . (right, up) + slope *
- * depth
- * - near >= 0, in q8, with the slope in 1/256.
- */
-static int32_t plane_value(const refine_plane_t *plane, const yb_point_t *p)
-{
-    /* depth < 2^24 and |slope| <= 2 * 2^8: the product is within 2^29. Dropping 4 bits of the depth
-     * loses at most 2 * 16, the last shift 1: planes lie 34 farther out than they should. */
-    return plane->right * p->right_q8 + plane->up * p->up_q8 +
-           (((p->depth_q8 >> 4) * plane->slope_q8) >> 4) - plane->near_q8;
-}
-
-/* The lowest length class of which an edge may be split at this depth or farther. The test of
- * refine_splits asks for length > depth * 16 / split_q4, and fix_length is up to 1/14 too long.
- */
-static int shortest_split(const yb_frame_t *frame, int32_t depth)
-{
-    depth = fix_max(depth, frame->near_q8);
-    int32_t length = (depth >> 6) * 14 / fix_max(frame->split_q4, 1) << 6;
-    return relief_class(fix_min(length, 65535), 0);
-}
-
-int32_t refine_stray(const yb_frame_t *frame, const yb_point_t *const p[3])
-{
-    relief_bound_t bound;
-    relief_bound(frame->map, &p[0]->at, &p[1]->at, &p[2]->at, &bound);
-    int32_t back = ((relief_reach(frame->map, &bound, 0) >> 4) + 1) * fix_abs(frame->lift_back_q9);
-    int32_t depth = fix_min(p[0]->depth_q8, fix_min(p[1]->depth_q8, p[2]->depth_q8));
-    int32_t reach =
-        relief_reach(frame->map, &bound, shortest_split(frame, depth - (back >> 5) - 1));
-    int32_t lowest = fix_min(p[0]->at.z_q8, fix_min(p[1]->at.z_q8, p[2]->at.z_q8));
-    int32_t water = frame->view.water_q8;
-    return lowest - reach < water ? fix_max(reach, water - lowest) : reach;
-}
-
-bool refine_misses(const refine_view_t *view, const yb_point_t *const *p, int count, int32_t stray,
-                   uint8_t *planes)
-{
-    for (int i = 0; i < REFINE_PLANES; i++) {
-        if ((*planes & 1 << i) == 0)
-            continue;
-        const refine_plane_t *plane = &view->plane[i];
-        /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
-        int32_t margin = (((stray >> 4) + 1) * plane->lift_q9 >> 5) + 34;
-        int32_t least = INT32_MAX;
-        int32_t most = INT32_MIN;
-        for (int k = 0; k < count; k++) {
-            int32_t value = plane_value(plane, p[k]);
-            least = fix_min(least, value);
-            most = fix_max(most, value);
-        }
-        if (most < -margin)
-            return true;
-        if (least > margin)
-            *planes &= (uint8_t) ~(1 << i);
-    }
-    return false;
-}
-
-/* Does nothing of what a triangle can become lie inside these planes? */
-static bool outside(const yb_frame_t *frame, const refine_view_t *view,
-                    const yb_point_t *const p[3], uint8_t *planes)
-{
-    return *planes != 0 && refine_misses(view, p, 3, refine_stray(frame, p), planes);
-}
 
 /* A slope of the picture's pyramid, in 1/256, for a line `off` sixteenths of a pixel from the
  * middle: off / focal, rounded up. The picture lies within a slope of 2.
@@ -129,137 +125,383 @@ static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
                        : -(-off_q4 * 256 / frame->focal_q4);
 }
 
+enum {
+    SPARE_Q4 = 14 /* by which spots may be off where they should be */
+};
+
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
 {
-    int32_t wide = slope_q8(frame, frame->screen.width * 8 + 16);
+    /* What meets no pixel's centre draws nothing. */
+    view->left_q4 = 8;
+    view->right_q4 = frame->screen.width * 16 - 8;
+    view->top_q4 = first_row * 16 + 8;
+    view->bottom_q4 = end_row * 16 - 8;
+    int32_t wide = slope_q8(frame, frame->screen.width * 8 + SPARE_Q4);
     int32_t middle = frame->screen.height * 8;
     const refine_plane_t planes[REFINE_PLANES] = {
-        {.slope_q8 = 256, .near_q8 = frame->near_q8},
+        {.slope_q8 = 256, .near = frame->near},
         {.right = 1, .slope_q8 = wide},
         {.right = -1, .slope_q8 = wide},
-        {.up = -1, .slope_q8 = slope_q8(frame, middle - first_row * 16 + 16)},
-        {.up = 1, .slope_q8 = slope_q8(frame, end_row * 16 - middle + 16)},
+        {.up = -1, .slope_q8 = slope_q8(frame, middle - first_row * 16 + SPARE_Q4)},
+        {.up = 1, .slope_q8 = slope_q8(frame, end_row * 16 - middle + SPARE_Q4)},
     };
+    int32_t up_q9 = (frame->up_z * frame->view.exaggerate_q8) >> 13;
+    int32_t deep_q9 = (frame->depth_z * frame->view.exaggerate_q8) >> 13;
     for (int i = 0; i < REFINE_PLANES; i++) {
-        view->plane[i] = planes[i];
-        view->plane[i].lift_q9 = fix_abs(planes[i].up * frame->lift_up_q9 -
-                                         ((planes[i].slope_q8 * frame->lift_back_q9) >> 8)) +
-                                 2;
+        refine_plane_t *plane = &view->plane[i];
+        *plane = planes[i];
+        int32_t lift = plane->up * up_q9 + ((plane->slope_q8 * deep_q9) >> 8);
+        plane->lift_q9 = (fix_abs(lift) >> frame->eye_shift) + 2;
     }
+}
+
+/* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0;
+ * depth < 2^18 and |slope| <= 2 * 2^8 make 2^27.
+ */
+static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
+                          const yb_point_t *const *p, int count, int32_t stray)
+{
+    camera_point_t at[4];
+    for (int k = 0; k < count; k++)
+        camera_view(frame, p[k]->place, p[k]->top_q8, &at[k]);
+    for (int i = 0; i < REFINE_PLANES; i++) {
+        const refine_plane_t *plane = &view->plane[i];
+        int32_t most = INT32_MIN;
+        for (int k = 0; k < count; k++)
+            most = fix_max(most, plane->right * at[k].right + plane->up * at[k].up +
+                                     ((at[k].depth * plane->slope_q8) >> 8) - plane->near);
+        /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
+        if (most < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12))
+            return true;
+    }
+    return false;
+}
+
+/* The box on the screen that holds some points and what lies between them, 1/16 pixel. */
+typedef struct {
+    int32_t left, right, top, bottom;
+    int32_t near; /* greatest 1/depth */
+} box_t;
+
+/* False: not all of them have spots. */
+static inline bool find_box(const yb_point_t *const *p, int count, box_t *box)
+{
+    box->near = p[0]->spot.near;
+    box->left = box->right = p[0]->spot.x_q4;
+    box->top = box->bottom = p[0]->spot.y_q4;
+    for (int k = 1; k < count; k++) {
+        const yb_spot_t *spot = &p[k]->spot;
+        box->near = fix_max(box->near, spot->near);
+        box->left = fix_min(box->left, spot->x_q4);
+        box->right = fix_max(box->right, spot->x_q4);
+        box->top = fix_min(box->top, spot->y_q4);
+        box->bottom = fix_max(box->bottom, spot->y_q4);
+    }
+    return box->top != INT32_MIN;
+}
+
+/* Widens it for points that may move by `stray`. False: they may come nearer by more than an
+ * eighth.
+ */
+static bool widen_box(const yb_frame_t *frame, int32_t stray, box_t *box)
+{
+    if (stray >= 1 << 14 || (stray * box->near) >> 3 > frame->most_bend)
+        return false;
+    int32_t sway = ((stray * box->near) >> 10) + 1;
+    int32_t spare = SPARE_Q4 + (box->near * frame->spare_q4 >> 16);
+    int32_t x = (sway * frame->sway_x_q4 >> frame->lift_shift) + spare;
+    int32_t y = (sway * frame->sway_y_q4 >> frame->lift_shift) + spare;
+    box->left -= x;
+    box->right += x;
+    box->top -= y;
+    box->bottom += y;
+    return true;
+}
+
+static inline bool box_misses(const refine_view_t *view, const box_t *box)
+{
+    return box->bottom < view->top_q4 || box->top > view->bottom_q4 || box->right < view->left_q4 ||
+           box->left > view->right_q4;
+}
+
+bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
+                   int count, int32_t stray)
+{
+    box_t box;
+    if (view == NULL)
+        return false;
+    if (!find_box(p, count, &box) || !widen_box(frame, stray, &box))
+        return misses_planes(frame, view, p, count, stray);
+    return box_misses(view, &box);
+}
+
+/* How far refinement can move a point of a triangle, of which the edges of level->pattern are
+ * split: by their midpoints now, and by what its parts do then. None of them has an edge that is
+ * longer than the mean of the longest of all and the longest that is left whole: halves are no
+ * longer, and a line from a corner to a midpoint no longer than the mean of the sides beside it.
+ *
+ * None of it comes nearer by more than an eighth; else the caller has to know of no limit.
+ */
+static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, int32_t near)
+{
+    const yb_edge_t *edge = level->edge;
+    yb_edge_t longest = 0;
+    yb_edge_t class = 0;
+    yb_edge_t whole = 0;
+    int32_t bulge = 0;
+    for (int i = 0; i < 3; i++) {
+        yb_edge_t length = edge[i] & 0xffff;
+        longest = length > longest ? length : longest;
+        whole = edge[i] < REFINE_ONCE && length > whole ? length : whole;
+        class = (edge[i] & 0xff0000) > class ? edge[i] & 0xff0000 : class;
+        bulge =
+            fix_max(bulge, fix_abs(bulge_of(level->point[i], level->point[i == 2 ? 0 : i + 1])));
+    }
+    const yb_map_t *map = frame->map;
+    int c = refine_class(class);
+    int32_t now = (map->noise[c] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
+    uint32_t size = (((longest + whole) >> 1) + 1) * (uint32_t)near;
+    size += size >> 3;
+    /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
+     * levels adds at most as many units. */
+    bulge += (bulge >> 1) + 16;
+    if (size <= frame->longest)
+        return bulge + now;
+    int often = 0;
+    for (; size > frame->longest && often < 16; size >>= 1)
+        often++;
+    if (whole == 0)
+        c = fix_max(c - 4, 0);
+    const relief_bound_t bound = {bulge, c};
+    return now + relief_reach(map, &bound, c + 4 - 4 * often);
+}
+
+int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level)
+{
+    const yb_point_t *const *p = level->point;
+    int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
+    int32_t stray = 0;
+    if (level->pattern != 0) {
+        bool seen = p[0]->spot.near > 0 && p[1]->spot.near > 0 && p[2]->spot.near > 0;
+        stray = limited_stray(frame, level, seen ? near : 65535);
+        if (stray >= 1 << 14 || (stray * near) >> 3 > frame->most_bend)
+            stray = limited_stray(frame, level, 65535);
+    }
+    /* What is above the water may sink to it where the ground between dips under it. */
+    int32_t water = frame->view.water_q8;
+    if (p[0]->z_q8 < water || p[1]->z_q8 < water || p[2]->z_q8 < water)
+        stray = fix_max(stray, fix_max(p[0]->top_q8, fix_max(p[1]->top_q8, p[2]->top_q8)) - water);
+    return stray;
+}
+
+/* Is nothing that a level can become in the view? Most levels lie in it as they are. */
+static inline bool level_misses(const yb_frame_t *frame, const refine_view_t *view,
+                                const yb_level_t *level)
+{
+    box_t box;
+    if (!find_box(level->point, 3, &box))
+        return misses_planes(frame, view, level->point, 3, refine_stray(frame, level));
+    if (!box_misses(view, &box))
+        return false;
+    int32_t stray = refine_stray(frame, level);
+    if (!widen_box(frame, stray, &box))
+        return misses_planes(frame, view, level->point, 3, stray);
+    return box_misses(view, &box);
+}
+
+/* --- Triangles -------------------------------------------------------------------------------- */
+
+/* part_table[pattern] + 3 k: part k of a triangle whose edges of `pattern` are split, by its
+ * corners (0 to 2: the triangle's; 3 to 5: the midpoints of edges 0 to 2) and, in the upper half,
+ * its edges (0 to 2: an edge of the triangle; 3 to 5: a half of it; 6 to 8: one of those between
+ * the parts). As SPEC 3.4.
+ */
+enum {
+    PARTS = 4,
+    PART_END = 6
+};
+static const uint8_t part_table[8][3 * PARTS + 1] = {
+    {PART_END},
+    {0x30, 0x63, 0x22, 0x33, 0x11, 0x62, PART_END},
+    {0x41, 0x64, 0x00, 0x44, 0x22, 0x60, PART_END},
+    {0x64, 0x33, 0x41, 0x22, 0x30, 0x73, 0x72, 0x63, 0x44, PART_END},
+    {0x52, 0x65, 0x11, 0x55, 0x00, 0x61, PART_END},
+    {0x63, 0x55, 0x30, 0x11, 0x52, 0x75, 0x71, 0x65, 0x33, PART_END},
+    {0x65, 0x44, 0x52, 0x00, 0x41, 0x74, 0x70, 0x64, 0x55, PART_END},
+    {0x30, 0x73, 0x55, 0x33, 0x41, 0x84, 0x65, 0x44, 0x52, 0x64, 0x75, 0x83, PART_END},
+};
+/* The ends of the edges between the parts; 0: there is none. Where all three edges are split edge i
+ * is half as long as, and parallel to, edge i of the triangle.
+ */
+static const uint8_t inner_table[8][3] = {
+    {0, 0, 0},    {0x32, 0, 0},    {0x40, 0, 0},    {0x43, 0x32, 0},
+    {0x51, 0, 0}, {0x53, 0x51, 0}, {0x54, 0x40, 0}, {0x54, 0x53, 0x43},
+};
+
+static inline int next_of(int i)
+{
+    return i == 2 ? 0 : i + 1;
+}
+
+void refine_root(yb_frame_t *frame, yb_level_t *level, yb_triangle_t triangle)
+{
+    for (int i = 0; i < 3; i++) {
+        camera_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
+        level->point[i] = &frame->root[i];
+    }
+    for (int i = 0; i < 3; i++)
+        level->edge[i] = refine_edge(frame, level->point[i], level->point[next_of(i)]);
+}
+
+uint8_t refine_pattern(const yb_frame_t *frame, yb_level_t *level)
+{
+    for (int i = 0; i < 3; i++) {
+        if (level->edge[i] >= REFINE_ASK)
+            level->edge[i] =
+                refine_ask(frame, level->point[i], level->point[next_of(i)], level->edge[i]);
+    }
+    level->pattern = (uint8_t)((level->edge[0] >= REFINE_ONCE ? 1 : 0) |
+                               (level->edge[1] >= REFINE_ONCE ? 2 : 0) |
+                               (level->edge[2] >= REFINE_ONCE ? 4 : 0));
+    return level->pattern;
+}
+
+void refine_split(const yb_frame_t *frame, yb_level_t *level)
+{
+    for (int i = 0; i < 3; i++) {
+        if ((level->pattern & 1 << i) == 0)
+            continue;
+        level->point[3 + i] = &level->middle[i];
+        level->edge[3 + i] = refine_half(level->edge[i]);
+        refine_middle(frame, level->point[i], level->point[next_of(i)], level->edge[i],
+                      &level->middle[i]);
+    }
+    const uint8_t *ends = inner_table[level->pattern];
+    for (int i = 0; i < 3 && ends[i] != 0; i++) {
+        const yb_point_t *a = level->point[ends[i] & 15];
+        const yb_point_t *b = level->point[ends[i] >> 4];
+        level->edge[6 + i] = level->pattern == 7
+                                 ? refine_ask(frame, a, b, refine_half(level->edge[i]))
+                                 : refine_edge(frame, a, b);
+    }
+}
+
+bool refine_part(const yb_level_t *level, int k, yb_level_t *part)
+{
+    const uint8_t *table = &part_table[level->pattern][3 * k];
+    if (table[0] == PART_END)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        part->point[i] = level->point[table[i] & 15];
+        part->edge[i] = level->edge[table[i] >> 4];
+    }
+    return true;
 }
 
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
-    const yb_point_t *const p[3] = {&frame->root[0], &frame->root[1], &frame->root[2]};
-    for (int i = 0; i < 3; i++)
-        refine_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-    int32_t first = 0;
+    yb_level_t *level = frame->level;
+    refine_root(frame, level, triangle);
+    (void)refine_pattern(frame, level);
+    int32_t stray = refine_stray(frame, level);
     int32_t last = frame->screen.height - 1;
-    uint8_t planes = REFINE_ALL_PLANES;
-    if (outside(frame, whole, p, &planes)) {
+    int32_t first = 0;
+    box_t box;
+    if (refine_misses(frame, whole, level->point, 3, stray)) {
+        first = last;
         last = 0;
-        first = 1 << YB_ROW_SHIFT;
-    } else {
-        /* All it can become lies in the prism of its corners moved up and down. */
-        int32_t stray = refine_stray(frame, p);
-        int32_t top = INT32_MAX;
-        int32_t bottom = INT32_MIN;
-        bool known = true;
-        for (int k = 0; k < 6 && known; k++) {
-            yb_point_t end;
-            camera_drop(frame, p[k >> 1], p[k >> 1]->at.z_q8 + ((k & 1) != 0 ? stray : -stray),
-                        &end);
-            known = end.visible;
-            top = fix_min(top, end.y_q4);
-            bottom = fix_max(bottom, end.y_q4);
-        }
-        if (known) {
-            first = fix_clamp((top >> 4) - 1, 0, last);
-            last = fix_clamp((bottom >> 4) + 1, 0, last);
-        }
+    } else if (find_box(level->point, 3, &box) && widen_box(frame, stray, &box)) {
+        first = fix_clamp(box.top >> 4, 0, last);
+        last = fix_clamp(box.bottom >> 4, 0, last);
     }
-    frame->first_row[triangle] = (uint8_t)(first >> YB_ROW_SHIFT);
-    frame->last_row[triangle] = (uint8_t)(last >> YB_ROW_SHIFT);
+    frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
 }
 
 /* --- Refinement ------------------------------------------------------------------------------- */
 
-/* Draws a triangle that is not split any more: lit only if it covers a pixel. */
-static void leaf(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3])
+/* Draws a triangle that is not split any more and has a corner without a spot. */
+static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                         const yb_point_t *const p[3])
+{
+    /* Where corners with spots lie in view space is known less well. */
+    if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
+        misses_planes(frame, view, p, 3, 0))
+        return;
+    frame->stats.drawn += clip_draw(frame, raster, p, shade_ground(frame, p)) ? 1 : 0;
+}
+
+static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                        const yb_point_t *const p[3])
 {
     frame->stats.refined++;
     if (raster == NULL)
         return;
-    raster_point_t corner[3];
-    raster_setup_t setup;
-    uint16_t pixel = 0;
-    if (clip_needs(frame, p, corner)) {
-        pixel = shade_ground(frame, &p[0]->at, &p[1]->at, &p[2]->at);
-        frame->stats.drawn += clip_draw(frame, raster, p, pixel) ? 1 : 0;
-    } else if (raster_setup(raster, corner, &setup)) {
-        pixel = shade_ground(frame, &p[0]->at, &p[1]->at, &p[2]->at);
-        raster_fill(raster, &setup, pixel);
-        frame->stats.drawn++;
+    raster_look_t look = raster_look(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
+    if (look == RASTER_NOTHING)
+        return;
+    if (look == RASTER_BEYOND) {
+        draw_clipped(frame, view, raster, p);
+        return;
     }
+    frame->stats.drawn++;
+    raster_fill(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, shade_ground(frame, p));
 }
 
-/* Splits the edges of a level that look long; false if the triangle is done with. */
-static bool open_level(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                       yb_level_t *level)
+/* What becomes of a triangle with an edge that may be split. */
+typedef enum {
+    DROPPED,
+    SPLIT,
+    LEAF
+} fate_t;
+
+static inline fate_t open_level(yb_frame_t *frame, const refine_view_t *view, yb_level_t *level)
 {
-    level->child = 0;
-    level->pattern = 0;
-    for (int i = 0; i < 3; i++) {
-        if (refine_splits(frame, level->corner[i], level->corner[i == 2 ? 0 : i + 1]))
-            level->pattern = (uint8_t)(level->pattern | 1 << i);
-    }
-    if (level->pattern != 0 && outside(frame, view, level->corner, &level->planes))
-        return false;
-    if (level->pattern != 0 && level == &frame->level[YB_MAX_LEVELS - 1]) {
+    if (refine_pattern(frame, level) == 0)
+        return LEAF;
+    if (level_misses(frame, view, level))
+        return DROPPED;
+    if (level == &frame->level[YB_MAX_LEVELS - 1]) {
         frame->stats.depth_limited++;
-        level->pattern = 0;
+        return LEAF;
     }
-    if (level->pattern == 0) {
-        leaf(frame, raster, level->corner);
-        return false;
-    }
-    for (int i = 0; i < 3; i++) {
-        if ((level->pattern & 1 << i) != 0)
-            refine_middle(frame, level->corner[i], level->corner[i == 2 ? 0 : i + 1],
-                          &level->middle[i]);
-    }
-    return true;
+    refine_split(frame, level);
+    level->next = part_table[level->pattern];
+    return SPLIT;
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                  yb_triangle_t triangle)
 {
+    /* The first level has one part: the base triangle as it is. */
+    static const uint8_t whole[4] = {0x00, 0x11, 0x22, PART_END};
     yb_level_t *level = frame->level;
-    for (int i = 0; i < 3; i++) {
-        refine_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-        level->corner[i] = &frame->root[i];
-    }
-    level->planes = REFINE_ALL_PLANES;
-    bool down = open_level(frame, view, raster, level);
+    refine_root(frame, level, triangle);
+    level->next = whole;
     for (;;) {
-        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
-            return; /* counted enough: too many */
-        const uint8_t *child = split_child[level->pattern][level->child & 3];
-        if (!down || level->child == SPLIT_CHILDREN || yb_rom_u8(child) == SPLIT_END) {
+        const uint8_t *next = level->next;
+        if (next[0] == PART_END) {
             if (level == frame->level)
                 return;
             level--;
-            level->child++;
-            down = true;
             continue;
         }
-        yb_level_t *below = level + 1;
-        for (int i = 0; i < 3; i++) {
-            uint8_t k = yb_rom_u8(&child[i]);
-            below->corner[i] = k < 3 ? level->corner[k] : &level->middle[k - 3];
+        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
+            return; /* counted enough: too many */
+        level->next = next + 3;
+        const yb_point_t *const p[3] = {level->point[next[0] & 15], level->point[next[1] & 15],
+                                        level->point[next[2] & 15]};
+        const yb_edge_t edge[3] = {level->edge[next[0] >> 4], level->edge[next[1] >> 4],
+                                   level->edge[next[2] >> 4]};
+        fate_t fate = LEAF;
+        if ((edge[0] | edge[1] | edge[2]) >= REFINE_ONCE) {
+            for (int i = 0; i < 3; i++) {
+                level[1].point[i] = p[i];
+                level[1].edge[i] = edge[i];
+            }
+            fate = open_level(frame, view, level + 1);
         }
-        below->planes = level->planes;
-        level = below;
-        down = open_level(frame, view, raster, level);
+        if (fate == LEAF)
+            leaf(frame, view, raster, p);
+        level += fate == SPLIT ? 1 : 0;
     }
 }

@@ -5,10 +5,7 @@
 #include "mesh.h"
 
 enum {
-    HASH_MEAN = 510,       /* of the sum of four bytes */
-    HASH_MOST = 320,       /* the sum less its mean is cut to ± this, one time in 38 */
     HASH_LOG2_Q11 = 14712, /* log2 of the standard deviation that remains, 145.37, in 1/2048 */
-    NOISE_SHIFT = 9,
     LONGEST_CLASS = 48 /* 32 steps: longer edges move like these */
 };
 
@@ -20,38 +17,10 @@ enum {
 
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
 
-/* Noise of a place: the sum of the four bytes of a hash of where it is, less its mean. Nearly
- * Gaussian; its tails are cut, because bounds on what refinement can do are what makes bands cheap.
- */
-static int32_t place_noise(const yb_map_t *map, uint32_t x_q8, uint32_t y_q8)
-{
-    uint32_t h = (x_q8 | y_q8 << 16) + (map->seed + 1u) * 0x9e3779b9u;
-    h = (h ^ h >> 16) * 0x7feb352du;
-    h = (h ^ h >> 15) * 0x846ca68bu;
-    h ^= h >> 16;
-    int32_t sum = (int32_t)((h & 255) + (h >> 8 & 255) + (h >> 16 & 255) + (h >> 24));
-    return fix_clamp(sum - HASH_MEAN, -HASH_MOST, HASH_MOST);
-}
-
-/* The smooth part: half way between the ends, on the parabola that has their slopes. |slope| is at
- * most 2^13 and |d| below 2^16 - 2^8, so each product is at most 2^14 * 65280 < 2^30, and their sum
- * with the rounding stays below 2^31.
- */
 static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
 {
-    int32_t dx = fix_minus(b->x_q8, a->x_q8);
-    int32_t dy = fix_minus(b->y_q8, a->y_q8);
-    int32_t rise = (a->gx_q11 - b->gx_q11) * dx + (a->gy_q11 - b->gy_q11) * dy;
-    return (rise + (1 << 13)) >> 14; /* slope 11 bits, and an eighth */
-}
-
-/* Gravity (paper, 3.3): no half edge may become steeper than 2 by its noise; a chord that already
- * is gets none. Half edges are L/2 long and rise by half the chord's rise, plus or minus the noise.
- */
-static int32_t limit_noise(int32_t noise, int32_t length, int32_t rise)
-{
-    int32_t limit = fix_max(length - (fix_abs(rise) >> 1), 0);
-    return fix_clamp(noise, -limit, limit);
+    return relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11,
+                        fix_minus(b->x_q8, a->x_q8), fix_minus(b->y_q8, a->y_q8));
 }
 
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
@@ -59,20 +28,13 @@ void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t 
 {
     int32_t dx = fix_minus(b->x_q8, a->x_q8);
     int32_t dy = fix_minus(b->y_q8, a->y_q8);
-    uint16_t x = fix_middle(a->x_q8, b->x_q8);
-    uint16_t y = fix_middle(a->y_q8, b->y_q8);
+    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
+    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
     int32_t z = (a->z_q8 + b->z_q8) >> 1;
     if (map->smooth)
         z += smooth_rise(a, b);
-    int32_t scale = map->noise[relief_class(dx, dy)];
-    if (map->detail && scale > 0) {
-        /* scale < 2^16, noise within 2^9: the product is within 2^25. */
-        int32_t noise = (scale * place_noise(map, x, y) + (1 << (NOISE_SHIFT - 1))) >> NOISE_SHIFT;
-        z += limit_noise(noise, fix_length(dx, dy), b->z_q8 - a->z_q8);
-    }
-    middle->x_q8 = x;
-    middle->y_q8 = y;
-    middle->z_q8 = z;
+    middle->z_q8 = z + relief_rough(map, relief_place(middle), relief_class(dx, dy), dx, dy,
+                                    b->z_q8 - a->z_q8);
     middle->gx_q11 = (int16_t)((a->gx_q11 + b->gx_q11) >> 1);
     middle->gy_q11 = (int16_t)((a->gy_q11 + b->gy_q11) >> 1);
 }
@@ -242,7 +204,7 @@ static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_
 static uint32_t most_move(uint32_t scale, int c)
 {
     uint32_t length = (fix_exp2_q11((int32_t)(c + 1) * 512) + 1) * 9 / 4;
-    uint32_t move = (scale * HASH_MOST >> NOISE_SHIFT) + 1;
+    uint32_t move = (scale * RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
     return move < length ? move : length;
 }
 
@@ -259,7 +221,7 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
         uint32_t scale = 0;
         if (amplitude != INT32_MIN) {
             int32_t e = amplitude + ((hurst_q8 * length) >> 8);
-            scale = fix_exp2_q11(e + NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
+            scale = fix_exp2_q11(e + RELIEF_NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
         }
         map->noise[c] = (uint16_t)(scale > 65535 ? 65535 : scale);
         uint32_t move = most_move(map->noise[c], c);

@@ -31,6 +31,78 @@ static inline bool relief_splits(int32_t dx, int32_t dy)
     return ((dx | dy) & 1) == 0;
 }
 
+/* A plan position as one number, and the differences of two: |dx|, |dy| < 2^16. */
+static inline uint32_t relief_place(const yb_vertex_t *v)
+{
+    return v->x_q8 | (uint32_t)v->y_q8 << 16;
+}
+
+static inline int32_t relief_dx(uint32_t a, uint32_t b)
+{
+    return (int32_t)(b & 0xffff) - (int32_t)(a & 0xffff);
+}
+
+static inline int32_t relief_dy(uint32_t a, uint32_t b)
+{
+    return (int32_t)(b >> 16) - (int32_t)(a >> 16);
+}
+
+/* Noise of a place: the sum of the four bytes of a hash of where it is, less its mean. Nearly
+ * Gaussian; its tails are cut, because bounds on what refinement can do are what makes bands cheap.
+ */
+enum {
+    RELIEF_HASH_MEAN = 510, /* of the sum of four bytes */
+    RELIEF_HASH_MOST = 320, /* the sum less its mean is cut to ± this, one time in 38 */
+    RELIEF_NOISE_SHIFT = 9
+};
+
+static inline int32_t relief_noise(uint32_t place, uint8_t seed)
+{
+    uint32_t h = place + (seed + (uint32_t)1) * 0x9e3779b9u;
+    h = (h ^ h >> 16) * 0x7feb352du;
+    h = (h ^ h >> 15) * 0x846ca68bu;
+    h ^= h >> 16;
+    h = (h & 0xff00ff) + (h >> 8 & 0xff00ff); /* two sums of two bytes */
+    return fix_clamp((int32_t)((h & 0xffff) + (h >> 16)) - RELIEF_HASH_MEAN, -RELIEF_HASH_MOST,
+                     RELIEF_HASH_MOST);
+}
+
+/* The smooth part: half way between the ends, on the parabola that has their slopes, which differ
+ * by (bend_x, bend_y), a's less b's. |slope| is at most 2^13 and |d| below 2^16 - 2^8, so each
+ * product is at most 2^14 * 65280 < 2^30, and their sum with the rounding stays below 2^31.
+ */
+static inline int32_t relief_bulge(int32_t bend_x, int32_t bend_y, int32_t dx, int32_t dy)
+{
+    return (bend_x * dx + bend_y * dy + (1 << 13)) >> 14; /* slope 11 bits, and an eighth */
+}
+
+/* Gravity (paper, 3.3): no half edge may become steeper than 2 by its noise; a chord that already
+ * is gets none. Half edges are L/2 long and rise by half the chord's rise, plus or minus the noise.
+ */
+static inline int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_t rise)
+{
+    int32_t limit = fix_max(fix_length(dx, dy) - (fix_abs(rise) >> 1), 0);
+    return fix_clamp(noise, -limit, limit);
+}
+
+/* The rough part at a midpoint of an edge with this class, these differences and this rise. */
+static inline int32_t relief_rough(const yb_map_t *map, uint32_t middle, int class, int32_t dx,
+                                   int32_t dy, int32_t rise)
+{
+    int32_t scale = map->noise[class];
+    if (!map->detail || scale == 0)
+        return 0;
+    /* scale < 2^16, noise within 2^9: the product is within 2^25. */
+    int32_t noise = (scale * relief_noise(middle, map->seed) + (1 << (RELIEF_NOISE_SHIFT - 1))) >>
+                    RELIEF_NOISE_SHIFT;
+    /* Nearly always well within its limit: no edge of a class is shorter than twice the root of its
+     * squared half length, which is at least 2^(class / 2), and fix_length is at most 2.8 % and 1
+     * below that: at least 31/16 2^(class / 4) - 1. */
+    if (fix_abs(noise) + (fix_abs(rise) >> 1) <= ((int32_t)31 << (class >> 2) >> 4) - 1)
+        return noise;
+    return relief_limit(noise, dx, dy, rise);
+}
+
 /* The midpoint of the edge ab, which relief_splits. */
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle);

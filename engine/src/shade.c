@@ -3,6 +3,7 @@
 #include <yamabiko/rom.h>
 
 #include "fix.h"
+#include "relief.h"
 
 enum {
     SHADES = 16, /* of which the ground uses 2 .. 15: 14 shades */
@@ -21,6 +22,13 @@ static const uint8_t ground_hue[HUES][3] YB_ROM = {
 static const uint8_t water_hue[3] YB_ROM = {72, 116, 168};
 static const uint8_t wall_hue[3] YB_ROM = {150, 132, 112};
 static const uint8_t sky[3] YB_ROM = {206, 222, 236};
+
+/* round(2^31 / sqrt(i 2^26)) - 1 for i from 16 to 64 */
+static const uint16_t root_table[49] = {
+    65535, 63578, 61787, 60139, 58616, 57204, 55888, 54660, 53509, 52428, 51410, 50449, 49540,
+    48678, 47860, 47081, 46340, 45632, 44956, 44309, 43690, 43095, 42524, 41976, 41448, 40939,
+    40449, 39976, 39519, 39077, 38650, 38237, 37836, 37448, 37072, 36707, 36352, 36007, 35672,
+    35346, 35029, 34721, 34420, 34127, 33842, 33563, 33291, 33026, 32767};
 
 void shade_begin(yb_frame_t *frame)
 {
@@ -50,82 +58,104 @@ uint16_t shade_background(const yb_frame_t *frame)
                : rgb565(yb_rom_u8(&sky[0]), yb_rom_u8(&sky[1]), yb_rom_u8(&sky[2]));
 }
 
-/* The shade of a surface by the cosine between its upward normal n and the sun (Lambert). The
- * normal is first brought to 15 bits: its square then fits 32, and the dot product 31.
- */
-static uint32_t lambert(const yb_frame_t *frame, const int32_t normal[3])
+/* 2^31 / sqrt(a) for 2^30 <= a < 2^32, within a thousandth: above 2^15, at most 2^16. */
+static uint32_t reciprocal_root(uint32_t a)
 {
-    int32_t n[3];
-    uint32_t all = 0;
-    for (int i = 0; i < 3; i++)
-        all |= (uint32_t)fix_abs(normal[i]);
+    uint32_t i = a >> 26;
+    uint32_t step = root_table[i - 16] - (uint32_t)root_table[i - 15];
+    return root_table[i - 16] + 1 - (step * (a >> 18 & 255) >> 8);
+}
+
+/* The shade of a surface by the cosine between its upward normal n, of up to 30 bits, and the sun
+ * (Lambert). The normal is first brought to 15 bits: its square then fits 32, and the dot product
+ * is within 3 * 2^29.
+ */
+static int32_t lambert(const yb_frame_t *frame, int32_t x, int32_t y, int32_t z)
+{
+    uint32_t all = (uint32_t)(fix_abs(x) | fix_abs(y) | fix_abs(z));
     if (all == 0)
         return DARKEST;
     int shift = fix_log2_floor(all) - 14;
-    uint32_t square = 0;
-    int32_t dot = 0;
-    for (int i = 0; i < 3; i++) {
-        n[i] = shift >= 0 ? normal[i] >> shift : normal[i] * (1 << -shift);
-        square += (uint32_t)(n[i] * n[i]);
-        dot += (n[i] * frame->view.sun_q14[i]) >> 2;
+    if (shift >= 0) {
+        x >>= shift;
+        y >>= shift;
+        z >>= shift;
+    } else {
+        x *= 1 << -shift;
+        y *= 1 << -shift;
+        z *= 1 << -shift;
     }
+    const int16_t *sun = frame->view.sun_q14;
+    int32_t dot = x * sun[0] + y * sun[1] + z * sun[2];
     if (dot <= 0)
         return DARKEST;
-    /* One Newton step from the largest component and half the others: within 1 %. */
-    uint32_t length = (uint32_t)(fix_max(fix_max(fix_abs(n[0]), fix_abs(n[1])), fix_abs(n[2])));
-    length += ((uint32_t)(fix_abs(n[0]) + fix_abs(n[1]) + fix_abs(n[2])) - length) * 3 >> 3;
-    length = (length + square / length) >> 1;
-    uint32_t cosine_q12 = (uint32_t)dot / length; /* dot has 12 fractional bits left */
-    return (uint32_t)fix_min(DARKEST + (int32_t)((cosine_q12 * (SHADES - DARKEST)) >> 12),
-                             SHADES - 1);
+    uint32_t square = (uint32_t)(x * x) + (uint32_t)(y * y) + (uint32_t)(z * z);
+    uint32_t along = (uint32_t)dot >> 14;
+    while (square < (uint32_t)1 << 30) { /* from 2^28 on: once at most */
+        square <<= 2;
+        along <<= 1;
+    }
+    /* The cosine times 2^31, for a unit vector to the sun: any other is cut. */
+    along = along < 65535 ? along : 65535;
+    uint32_t cosine_q12 = along * reciprocal_root(square) >> 19;
+    /* Rounded up a little, so that level ground and water below a sun 30 degrees high, a half on
+     * the dot, have one shade whatever triangles they are made of. */
+    uint32_t shade = (cosine_q12 * (SHADES - DARKEST) + 1024) >> 12;
+    return fix_min(DARKEST + (int32_t)shade, SHADES - 1);
 }
 
-/* The upward normal of abc, from differences brought to 11 bits: a product of two has 22. */
-static void normal_of(const yb_frame_t *frame, const yb_vertex_t *const p[3], int32_t normal[3])
+/* The shade of a triangle by its upward normal, from differences of at most 14 bits: a product of
+ * two has 28.
+ */
+static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
 {
-    int32_t d[2][3];
-    uint32_t all = 0;
-    for (int k = 0; k < 2; k++) {
-        int32_t rise = fix_max(p[k + 1]->z_q8, frame->view.water_q8) -
-                       fix_max(p[0]->z_q8, frame->view.water_q8);
-        d[k][0] = fix_minus(p[k + 1]->x_q8, p[0]->x_q8);
-        d[k][1] = fix_minus(p[k + 1]->y_q8, p[0]->y_q8);
-        d[k][2] = (rise * (frame->view.exaggerate_q8 >> 3)) >> 5; /* 2^19 * 2^8 */
-        for (int i = 0; i < 3; i++)
-            all |= (uint32_t)fix_abs(d[k][i]);
+    int32_t x1 = relief_dx(p[0]->place, p[1]->place);
+    int32_t y1 = relief_dy(p[0]->place, p[1]->place);
+    int32_t x2 = relief_dx(p[0]->place, p[2]->place);
+    int32_t y2 = relief_dy(p[0]->place, p[2]->place);
+    int32_t z1 = p[1]->top_q8 - p[0]->top_q8;
+    int32_t z2 = p[2]->top_q8 - p[0]->top_q8;
+    if (frame->view.exaggerate_q8 != 256) { /* 2^20 * 2^8 */
+        z1 = (z1 * (frame->view.exaggerate_q8 >> 3)) >> 5;
+        z2 = (z2 * (frame->view.exaggerate_q8 >> 3)) >> 5;
     }
-    int shift = (int)fix_max(fix_log2_floor(all | 1) - 10, 0);
-    for (int k = 0; k < 2; k++) {
-        for (int i = 0; i < 3; i++)
-            d[k][i] >>= shift;
+    const int32_t most = (int32_t)1 << 14;
+    while ((uint32_t)((x1 + most) | (y1 + most) | (x2 + most) | (y2 + most) | (z1 + most) |
+                      (z2 + most)) >= (uint32_t)1 << 15) {
+        x1 >>= 1;
+        y1 >>= 1;
+        z1 >>= 1;
+        x2 >>= 1;
+        y2 >>= 1;
+        z2 >>= 1;
     }
-    normal[0] = d[0][1] * d[1][2] - d[0][2] * d[1][1];
-    normal[1] = d[0][2] * d[1][0] - d[0][0] * d[1][2];
-    normal[2] = d[0][0] * d[1][1] - d[0][1] * d[1][0];
+    return lambert(frame, y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2);
 }
 
-uint16_t shade_ground(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b,
-                      const yb_vertex_t *c)
+uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
-    const yb_vertex_t *const p[3] = {a, b, c};
-    int32_t normal[3];
-    normal_of(frame, p, normal);
-    uint32_t shade = lambert(frame, normal);
+    uint32_t shade = (uint32_t)shade_of(frame, corner);
+    if (frame->screen.format == YB_GREY4)
+        return (uint16_t)shade;
     int32_t water = frame->view.water_q8;
-    if (a->z_q8 <= water && b->z_q8 <= water && c->z_q8 <= water)
+    if (corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water)
         return pixel_of(frame, water_hue, shade);
-    int32_t middle = (a->z_q8 + b->z_q8 + c->z_q8) / 3 - frame->map->low_q8;
-    middle = fix_clamp(middle, 0, frame->map->high_q8 - frame->map->low_q8);
+    /* A third: 5461 / 2^14. */
+    int32_t low = frame->map->low_q8;
+    int32_t middle =
+        (((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10) - low;
+    middle = fix_clamp(middle, 0, frame->map->high_q8 - low);
     int32_t hue =
         fix_min((int32_t)(((uint32_t)middle * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
     return pixel_of(frame, ground_hue[hue], shade);
 }
 
-uint16_t shade_wall(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     /* Outward: to the right of the edge. */
-    const int32_t normal[3] = {fix_minus(b->y_q8, a->y_q8), fix_minus(a->x_q8, b->x_q8), 0};
-    int32_t shade = fix_max((int32_t)lambert(frame, normal) - WALL_DIM, DARKEST);
+    int32_t dx = relief_dx(a->place, b->place);
+    int32_t dy = relief_dy(a->place, b->place);
+    int32_t shade = fix_max(lambert(frame, dy, -dx, 0) - WALL_DIM, DARKEST);
     int32_t water = frame->view.water_q8;
     bool flooded = a->z_q8 <= water && b->z_q8 <= water;
     return pixel_of(frame, flooded ? water_hue : wall_hue, (uint32_t)shade);

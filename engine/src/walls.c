@@ -15,23 +15,28 @@ static bool on_one_side(const yb_map_t *map, const yb_vertex_t *a, const yb_vert
            (a->y_q8 == b->y_q8 && (a->y_q8 == 0 || a->y_q8 == map->north_q8));
 }
 
+void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
+{
+    const yb_map_t *map = frame->map;
+    const yb_index_t *corner = map->triangle[triangle];
+    for (int i = 0; i < 3; i++) {
+        if (on_one_side(map, &map->vertex[corner[i]], &map->vertex[corner[i == 2 ? 0 : i + 1]]))
+            frame->rim[triangle >> 3] |= (uint8_t)(1 << (triangle & 7));
+    }
+}
+
 static void draw_half(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3],
                       uint16_t pixel)
 {
-    raster_point_t corner[3];
-    raster_setup_t setup;
-    if (clip_needs(frame, p, corner)) {
-        frame->stats.drawn += clip_draw(frame, raster, p, pixel) ? 1 : 0;
-    } else if (raster_setup(raster, corner, &setup)) {
-        raster_fill(raster, &setup, pixel);
+    raster_look_t look = raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
+    if (look != RASTER_NOTHING && (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel)))
         frame->stats.drawn++;
-    }
 }
 
 static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point_t *a,
                        const yb_point_t *b)
 {
-    uint16_t pixel = shade_wall(frame, &a->at, &b->at);
+    uint16_t pixel = shade_wall(frame, a, b);
     yb_point_t a_foot;
     yb_point_t b_foot;
     camera_drop(frame, a, frame->base_q8, &a_foot);
@@ -45,39 +50,47 @@ static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point
 
 /* Is the wall below the edge ab out of sight, however the edge is refined? */
 static bool hidden(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
-                   const yb_point_t *b)
+                   const yb_point_t *b, int32_t stray)
 {
     yb_point_t a_foot;
     yb_point_t b_foot;
     camera_drop(frame, a, frame->base_q8, &a_foot);
     camera_drop(frame, b, frame->base_q8, &b_foot);
-    const yb_point_t *const edge[3] = {a, b, b};
     const yb_point_t *const wall[4] = {a, b, &a_foot, &b_foot};
-    uint8_t planes = REFINE_ALL_PLANES;
-    return refine_misses(view, wall, 4, refine_stray(frame, edge), &planes);
+    return refine_misses(frame, view, wall, 4, stray);
 }
 
-/* Refines one edge from a to b, left to right: to[depth] is the point where the part in hand ends.
+/* Refines one edge of a triangle from a to b, left to right: of the points where the parts to come
+ * end, and of the edges to them, the last is the one in hand.
  */
-static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
+static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                      yb_level_t *level, int which)
 {
-    const yb_point_t *to[YB_MAX_LEVELS + 1];
-    int depth = 0;
-    to[0] = &frame->root[1];
-    yb_point_t from = frame->root[0];
-    for (;;) {
-        bool split = depth < YB_MAX_LEVELS && refine_splits(frame, &from, to[depth]);
-        if (split && !hidden(frame, view, &from, to[depth])) {
-            yb_point_t *middle = &frame->level[depth].middle[0];
-            refine_middle(frame, &from, to[depth], middle);
-            to[++depth] = middle;
+    (void)refine_pattern(frame, level);
+    int32_t stray = refine_stray(frame, level);
+    const yb_level_t *last = level + YB_MAX_LEVELS - 1;
+    yb_point_t from = *level->point[which];
+    level->point[0] = level->point[which == 2 ? 0 : which + 1];
+    level->edge[0] = level->edge[which];
+    for (yb_level_t *at = level;;) {
+        if (at->edge[0] >= REFINE_ASK)
+            at->edge[0] = refine_ask(frame, &from, at->point[0], at->edge[0]);
+        bool split = at->edge[0] >= REFINE_ONCE && at != last;
+        bool seen = (at != level && !split) || !hidden(frame, view, &from, at->point[0], stray);
+        if (split && seen) {
+            refine_middle(frame, &from, at->point[0], at->edge[0], &at->middle[0]);
+            at->edge[0] = refine_half(at->edge[0]);
+            at[1].point[0] = &at->middle[0];
+            at[1].edge[0] = at->edge[0];
+            at++;
             continue;
         }
-        if (!split)
-            draw_piece(frame, raster, &from, to[depth]);
-        if (depth == 0)
+        if (seen)
+            draw_piece(frame, raster, &from, at->point[0]);
+        if (at == level)
             return;
-        from = *to[depth--];
+        from = *at->point[0];
+        at--;
     }
 }
 
@@ -85,14 +98,15 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
 {
     const yb_map_t *map = frame->map;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+        if ((frame->rim[t >> 3] & 1 << (t & 7)) == 0)
+            continue;
         for (int i = 0; i < 3; i++) {
-            yb_index_t a = map->triangle[t][i];
-            yb_index_t b = map->triangle[t][i == 2 ? 0 : i + 1];
-            if (!on_one_side(map, &map->vertex[a], &map->vertex[b]))
+            const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
+            const yb_vertex_t *b = &map->vertex[map->triangle[t][i == 2 ? 0 : i + 1]];
+            if (!on_one_side(map, a, b))
                 continue;
-            refine_root(frame, a, &frame->root[0]);
-            refine_root(frame, b, &frame->root[1]);
-            draw_edge(frame, view, raster);
+            refine_root(frame, frame->level, t);
+            draw_edge(frame, view, raster, frame->level, i);
         }
     }
 }

@@ -2,12 +2,11 @@
 
 #include <stdlib.h>
 
+#include "camera.h"
 #include "clip.h"
 #include "raster.h"
 #include "refine.h"
-#include "relief.h"
 #include "shade.h"
-#include "split.h"
 
 typedef struct {
     const yb_frame_t *frame;
@@ -19,59 +18,45 @@ typedef struct {
 /* With twice the room that its relief may need. Without this all that lies behind the eye would be
  * refined as if it touched it.
  */
-bool plain_behind(const yb_frame_t *frame, const yb_point_t *const corner[3])
+bool plain_behind(const yb_frame_t *frame, const yb_level_t *level)
 {
-    relief_bound_t bound;
-    relief_bound(frame->map, &corner[0]->at, &corner[1]->at, &corner[2]->at, &bound);
-    int64_t reach = relief_reach(frame->map, &bound, 0);
-    int64_t lift = frame->lift_back_q9 < 0 ? -frame->lift_back_q9 : frame->lift_back_q9;
+    yb_level_t whole = *level;
+    whole.pattern = 7;
+    int64_t stray = 2 * (int64_t)refine_stray(frame, &whole) + 256;
+    int64_t lift = (int64_t)abs(frame->depth_z) * frame->view.exaggerate_q8 >> 8;
     for (int i = 0; i < 3; i++) {
-        int64_t stray = 2 * reach + 256;
-        if (frame->view.water_q8 > corner[i]->at.z_q8)
-            stray += frame->view.water_q8 - (int64_t)corner[i]->at.z_q8;
-        if (corner[i]->depth_q8 + (stray * lift >> 9) >= frame->near_q8)
+        camera_point_t at;
+        camera_view(frame, level->point[i]->place, level->point[i]->top_q8, &at);
+        if (at.depth + (stray * lift >> 14 >> frame->eye_shift) + 2 >= frame->near)
             return false;
     }
     return true;
 }
 
-static void walk(walk_t *at, const yb_point_t *const corner[3], int level)
+static void walk(walk_t *at, yb_level_t *level, int depth)
 {
-    const yb_point_t *point[6] = {corner[0], corner[1], corner[2]};
-    yb_point_t middle[3];
-    int pattern = 0;
-    if (plain_behind(at->frame, corner))
+    if (plain_behind(at->frame, level))
         return;
-    for (int i = 0; i < 3 && level + 1 < YB_MAX_LEVELS; i++) {
-        const yb_point_t *a = corner[i];
-        const yb_point_t *b = corner[(i + 1) % 3];
-        if (!refine_splits(at->frame, a, b))
-            continue;
-        refine_middle(at->frame, a, b, &middle[i]);
-        point[3 + i] = &middle[i];
-        pattern |= 1 << i;
-    }
-    if (pattern == 0) {
+    if (depth + 2 == YB_MAX_LEVELS || refine_pattern(at->frame, level) == 0) {
         at->count++;
-        at->fn(at->context, corner);
+        at->fn(at->context, level->point);
         return;
     }
-    for (int k = 0; k < SPLIT_CHILDREN && split_child[pattern][k][0] != SPLIT_END; k++) {
-        const uint8_t *child = split_child[pattern][k];
-        const yb_point_t *const below[3] = {point[child[0]], point[child[1]], point[child[2]]};
-        walk(at, below, level + 1);
-    }
+    refine_split(at->frame, level);
+    yb_level_t part;
+    for (int k = 0; refine_part(level, k, &part); k++)
+        walk(at, &part, depth + 1);
 }
 
 uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context)
 {
+    static yb_frame_t copy; /* for its roots */
+    copy = *frame;
     walk_t at = {frame, fn, context, 0};
     for (int t = 0; t < frame->map->triangle_count; t++) {
-        yb_point_t root[3];
-        for (int i = 0; i < 3; i++)
-            refine_root(frame, frame->map->triangle[t][i], &root[i]);
-        const yb_point_t *const corner[3] = {&root[0], &root[1], &root[2]};
-        walk(&at, corner, 0);
+        yb_level_t root;
+        refine_root(&copy, &root, (yb_triangle_t)t);
+        walk(&at, &root, 0);
     }
     return at.count;
 }
@@ -81,16 +66,15 @@ typedef struct {
     raster_t raster;
 } drawing_t;
 
-static void draw_leaf(void *context, const yb_point_t *const corner[3])
+static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
-    uint16_t pixel = shade_ground(drawing->frame, &corner[0]->at, &corner[1]->at, &corner[2]->at);
-    raster_point_t place[3];
-    raster_setup_t setup;
-    if (clip_needs(drawing->frame, corner, place))
-        (void)clip_draw(drawing->frame, &drawing->raster, corner, pixel);
-    else if (raster_setup(&drawing->raster, place, &setup))
-        raster_fill(&drawing->raster, &setup, pixel);
+    uint16_t pixel = shade_ground(drawing->frame, p);
+    raster_look_t look = raster_look(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
+    if (look == RASTER_BEYOND)
+        (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
+    else if (look != RASTER_NOTHING)
+        raster_fill(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
@@ -98,9 +82,8 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
     drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height}};
     raster_clear(&drawing.raster, shade_background(frame));
     (void)plain_leaves(frame, draw_leaf, &drawing);
-    static const refine_view_t everywhere; /* planes of zeros: nothing is outside */
     if (frame->view.walls)
-        walls_draw(frame, &everywhere, &drawing.raster);
+        walls_draw(frame, NULL, &drawing.raster);
 }
 
 /* --- Views ------------------------------------------------------------------------------------ */

@@ -16,7 +16,7 @@ typedef void (*plain_leaf_fn)(void *context, const yb_point_t *const corner[3]);
 uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context);
 
 /* Lies a triangle, with all that it may become, behind the eye? With plenty to spare. */
-bool plain_behind(const yb_frame_t *frame, const yb_point_t *const corner[3]);
+bool plain_behind(const yb_frame_t *frame, const yb_level_t *level);
 
 /* Draws all rows of a frame that has begun. */
 void plain_frame(yb_frame_t *frame, const yb_band_t *band);

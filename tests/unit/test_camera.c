@@ -7,7 +7,7 @@
 #include "check.h"
 #include "maps.h"
 #include "plain_frame.h"
-#include "refine.h"
+#include "relief.h"
 
 static yb_map_t map;
 static yb_load_t load;
@@ -31,6 +31,17 @@ static void load_frame(int east, int north, const int height[4])
 
 static const yb_screen_t screen = {128, 64, YB_GREY4};
 
+/* Vertex i in view space, q8. */
+static camera_point_t seen(int i)
+{
+    camera_point_t at;
+    camera_view(&frame, relief_place(&map.vertex[i]), map.vertex[i].z_q8, &at);
+    at.right *= 1 << frame.eye_shift;
+    at.up *= 1 << frame.eye_shift;
+    at.depth *= 1 << frame.eye_shift;
+    return at;
+}
+
 static void from_the_south_east_is_on_the_right(void **state)
 {
     (void)state;
@@ -41,18 +52,18 @@ static void from_the_south_east_is_on_the_right(void **state)
     yb_frame_begin(&frame, &map, &view, &screen);
     assert_true(view.eye_q8[1] < 0);
     assert_true(view.eye_q8[2] > 0);
-    assert_true(frame.seen[1].right_q8 > 0 && frame.seen[2].right_q8 > 0);
-    assert_true(frame.seen[0].right_q8 < 0 && frame.seen[3].right_q8 < 0);
-    assert_true(frame.seen[2].up_q8 > frame.seen[1].up_q8);
-    assert_true(frame.seen[2].depth_q8 > frame.seen[1].depth_q8);
+    assert_true(seen(1).right > 0 && seen(2).right > 0);
+    assert_true(seen(0).right < 0 && seen(3).right < 0);
+    assert_true(seen(2).up > seen(1).up);
+    assert_true(seen(2).depth > seen(1).depth);
     yb_point_t corner[4];
     for (int i = 0; i < 4; i++) {
-        refine_root(&frame, (yb_index_t)i, &corner[i]);
-        assert_true(corner[i].visible);
+        camera_root(&frame, (yb_index_t)i, &corner[i]);
+        assert_true(corner[i].spot.near > 0);
     }
-    assert_true(corner[1].x_q4 > 64 * 16 && corner[0].x_q4 < 64 * 16);
-    assert_true(corner[2].y_q4 < corner[1].y_q4);
-    assert_true(corner[2].near < corner[1].near);
+    assert_true(corner[1].spot.x_q4 > 64 * 16 && corner[0].spot.x_q4 < 64 * 16);
+    assert_true(corner[2].spot.y_q4 < corner[1].spot.y_q4);
+    assert_true(corner[2].spot.near < corner[1].spot.near);
 }
 
 static void higher_is_further_up(void **state)
@@ -67,8 +78,8 @@ static void higher_is_further_up(void **state)
             yb_view_init(&view, &map);
             yb_view_orbit(&view, &map, YB_DEGREES(azimuth), YB_DEGREES(20), 400);
             yb_frame_begin(&frame, &map, &view, &screen);
-            assert_true(frame.seen[1].up_q8 > before);
-            before = frame.seen[1].up_q8;
+            assert_true(seen(1).up > before);
+            before = seen(1).up;
         }
     }
 }
@@ -95,10 +106,10 @@ static void straight_down_the_azimuth_is_up(void **state)
             /* Clockwise from the azimuth: north (NW, NE), east, south, west. */
             static const int top[4][2] = {{3, 2}, {2, 1}, {1, 0}, {0, 3}};
             int sign = how == 0 ? 1 : -1;
-            assert_true(sign * frame.seen[top[quarter][0]].up_q8 > 20000);
-            assert_true(sign * frame.seen[top[quarter][1]].up_q8 > 20000);
-            assert_true(frame.seen[top[quarter][0]].right_q8 < -20000);
-            assert_true(frame.seen[top[quarter][1]].right_q8 > 20000);
+            assert_true(sign * seen(top[quarter][0]).up > 20000);
+            assert_true(sign * seen(top[quarter][1]).up > 20000);
+            assert_true(seen(top[quarter][0]).right < -20000);
+            assert_true(seen(top[quarter][1]).right > 20000);
         }
     }
 }
@@ -123,6 +134,8 @@ static void see(const yb_view_t *view, const yb_vertex_t *v, seen_t *seen)
     seen->right = -sin(b) * x[0] + cos(b) * x[1];
     seen->up = -sin(a) * cos(b) * x[0] - sin(a) * sin(b) * x[1] + cos(a) * x[2];
     seen->depth = length - q1;
+    for (int i = 0; i < 3; i++)
+        x[i] -= d[i];
     seen->offset = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
@@ -149,22 +162,22 @@ static void positions_are_the_papers(void **state)
             seen_t truth;
             see(&view, &map.vertex[i], &truth);
             /* Fourteen bits of sine and cosine, twice rounded, three terms. */
-            double most = 4 + truth.offset * 4 / 16384;
-            double off = fmax(fabs(frame.seen[i].right_q8 - truth.right),
-                              fmax(fabs(frame.seen[i].up_q8 - truth.up),
-                                   fabs(frame.seen[i].depth_q8 - truth.depth)));
+            double most = 4 * (1 << frame.eye_shift) + truth.offset * 4 / 16384;
+            double off = fmax(fabs(seen(i).right - truth.right),
+                              fmax(fabs(seen(i).up - truth.up), fabs(seen(i).depth - truth.depth)));
             worst = fmax(worst, off / most);
             yb_point_t point;
-            refine_root(&frame, (yb_index_t)i, &point);
+            camera_root(&frame, (yb_index_t)i, &point);
             double x = 64 * 16 + truth.right / truth.depth * frame.focal_q4;
             double y = 32 * 16 - truth.up / truth.depth * frame.focal_q4;
-            if (!point.visible || x < 0 || x > 128 * 16 || y < 0 || y > 64 * 16)
+            if (point.spot.near == 0 || x < 0 || x > 128 * 16 || y < 0 || y > 64 * 16)
                 continue;
             on_screen++;
             double spread = 3 * most / truth.depth * frame.focal_q4 + 2;
-            worst_q4 = fmax(worst_q4, fmax(fabs(point.x_q4 - x), fabs(point.y_q4 - y)) / spread);
-            double near = 65536.0 * frame.near_q8 / truth.depth;
-            assert_true(fabs(fmin(near, 65535) - point.near) <
+            worst_q4 =
+                fmax(worst_q4, fmax(fabs(point.spot.x_q4 - x), fabs(point.spot.y_q4 - y)) / spread);
+            double near = 65536.0 * (frame.near << frame.eye_shift) / truth.depth;
+            assert_true(fabs(fmin(near, 65535) - point.spot.near) <
                         10 + near * (2 * most / truth.depth + 0.001));
         }
     }
@@ -193,9 +206,9 @@ static void known_projections(void **state)
     static const double x[4] = {64 - 68.625, 64 + 68.625, 64 + 34.3125, 64 - 34.3125};
     for (int i = 0; i < 4; i++) {
         yb_point_t point;
-        refine_root(&frame, (yb_index_t)i, &point);
-        assert_true(fabs(point.x_q4 / 16.0 - x[i]) <= 0.125);
-        assert_int_equal(point.y_q4, 32 * 16);
+        camera_root(&frame, (yb_index_t)i, &point);
+        assert_true(fabs(point.spot.x_q4 / 16.0 - x[i]) <= 0.125);
+        assert_int_equal(point.spot.y_q4, 32 * 16);
     }
 }
 

@@ -39,23 +39,31 @@ static void begin_random_frame(rng_t *rng, int round)
 
 /* --- An edge is the same from both ends ------------------------------------------------------- */
 
-static void check_edge(void *context, const yb_point_t *const p[3])
+static void check_edge(const yb_point_t *a, const yb_point_t *b)
+{
+    yb_edge_t there = refine_edge(&frame, a, b);
+    assert_true(there == refine_edge(&frame, b, a));
+    if (!relief_splits(relief_dx(a->place, b->place), relief_dy(a->place, b->place))) {
+        assert_true(there < REFINE_ONCE);
+        return;
+    }
+    for (int how = 0; how < 2; how++) { /* by the spots, if there are any; exactly */
+        yb_point_t forth_middle;
+        yb_point_t back_middle;
+        if (how == 0 && (a->spot.near == 0 || b->spot.near == 0))
+            continue;
+        there = (there & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
+        refine_middle(&frame, a, b, there, &forth_middle);
+        refine_middle(&frame, b, a, there, &back_middle);
+        assert_memory_equal(&forth_middle, &back_middle, sizeof forth_middle);
+    }
+}
+
+static void check_leaf(void *context, const yb_point_t *const p[3])
 {
     (void)context;
-    for (int i = 0; i < 3; i++) {
-        const yb_point_t *a = p[i];
-        const yb_point_t *b = p[(i + 1) % 3];
-        assert_int_equal(refine_splits(&frame, a, b), refine_splits(&frame, b, a));
-        if (!relief_splits(b->at.x_q8 - a->at.x_q8, b->at.y_q8 - a->at.y_q8))
-            continue;
-        yb_point_t forth;
-        yb_point_t back;
-        memset(&forth, 0, sizeof forth);
-        memset(&back, 0, sizeof back);
-        refine_middle(&frame, a, b, &forth);
-        refine_middle(&frame, b, a, &back);
-        assert_memory_equal(&forth, &back, sizeof forth);
-    }
+    for (int i = 0; i < 3; i++)
+        check_edge(p[i], p[(i + 1) % 3]);
 }
 
 static void edges_are_the_same_from_both_ends(void **state)
@@ -64,13 +72,46 @@ static void edges_are_the_same_from_both_ends(void **state)
     rng_t rng = {61};
     for (int round = 0; round < 80; round++) {
         begin_random_frame(&rng, round);
-        (void)plain_leaves(&frame, check_edge, NULL);
+        (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
-            yb_point_t a;
-            yb_point_t b;
-            refine_root(&frame, map.triangle[t][0], &a);
-            refine_root(&frame, map.triangle[t][1], &b);
-            assert_int_equal(refine_splits(&frame, &a, &b), refine_splits(&frame, &b, &a));
+            yb_level_t root;
+            refine_root(&frame, &root, (yb_triangle_t)t);
+            check_leaf(NULL, root.point);
+        }
+    }
+}
+
+/* A midpoint is that of the surface: SPEC 3.2. */
+static void midpoints_are_the_surfaces(void **state)
+{
+    (void)state;
+    rng_t rng = {64};
+    for (int round = 0; round < 40; round++) {
+        begin_random_frame(&rng, round);
+        for (int t = 0; t < map.triangle_count; t++) {
+            yb_level_t root;
+            refine_root(&frame, &root, (yb_triangle_t)t);
+            for (int i = 0; i < 3; i++) {
+                const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
+                const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
+                yb_vertex_t truth;
+                yb_point_t middle;
+                if (!relief_splits(b->x_q8 - a->x_q8, b->y_q8 - a->y_q8))
+                    continue;
+                root.edge[i] = (root.edge[i] & 0xffffff) | REFINE_AGAIN;
+                relief_middle(&map, a, b, &truth);
+                refine_middle(&frame, root.point[i], root.point[(i + 1) % 3], root.edge[i],
+                              &middle);
+                assert_int_equal(middle.z_q8, truth.z_q8);
+                assert_int_equal(middle.place, relief_place(&truth));
+                assert_int_equal((int)(middle.slope & 0xffff) - 0x8000, truth.gx_q11);
+                assert_int_equal((int)(middle.slope >> 16) - 0x8000, truth.gy_q11);
+                /* The class of a half is its own, if it can be split on. */
+                int32_t dx = relief_dx(root.point[i]->place, middle.place);
+                int32_t dy = relief_dy(root.point[i]->place, middle.place);
+                if (relief_splits(dx, dy))
+                    assert_int_equal(refine_class(refine_half(root.edge[i])), relief_class(dx, dy));
+            }
         }
     }
 }
@@ -86,62 +127,40 @@ typedef struct {
     refine_view_t view;
     int first_row, end_row;
     bool out[NODES];
-    uint8_t planes[NODES];
     int depth;
-    int64_t checked, out_checked;
+    int64_t outside;
 } bounds_t;
 
-/* A point of the surface against what was said of all triangles that it came from. */
+/* A point of the surface against what was said of all triangles that it came from. Between a leaf's
+ * corners lies what its corners bound.
+ */
 static void check_point(bounds_t *bounds, const yb_point_t *point)
 {
-    camera_point_t place;
-    camera_place(&frame, point, &place);
-    bool seen = point->visible && point->x_q4 >= 0 && point->x_q4 < frame.screen.width * 16 &&
-                point->y_q4 >= bounds->first_row * 16 && point->y_q4 < bounds->end_row * 16;
+    const yb_spot_t *spot = &point->spot;
+    bool seen = spot->near > 0 && spot->x_q4 >= 0 && spot->x_q4 < frame.screen.width * 16 &&
+                spot->y_q4 >= bounds->first_row * 16 && spot->y_q4 < bounds->end_row * 16;
     for (int i = 0; i < bounds->depth; i++) {
-        if (bounds->out[i]) {
-            CHECK(!seen, "a point at %d, %d of a triangle that is outside", (int)point->x_q4,
-                  (int)point->y_q4);
-            bounds->out_checked++;
-            continue;
-        }
-        for (int k = 0; k < REFINE_PLANES; k++) {
-            if ((bounds->planes[i] & 1 << k) != 0)
-                continue;
-            const refine_plane_t *plane = &bounds->view.plane[k];
-            double value = (double)plane->right * place.right_q8 + (double)plane->up * place.up_q8 +
-                           (double)plane->slope_q8 * place.depth_q8 / 256 - plane->near_q8;
-            CHECK(value >= 0, "a point %.1f outside plane %d, of a triangle inside it", -value, k);
-            bounds->checked++;
-        }
+        CHECK(!bounds->out[i] || !seen, "a point at %d, %d of a triangle that is outside",
+              (int)spot->x_q4, (int)spot->y_q4);
+        bounds->outside += bounds->out[i];
     }
 }
 
-static void descend(bounds_t *bounds, const yb_point_t *const corner[3])
+static void descend(bounds_t *bounds, yb_level_t *level)
 {
     assert_true(bounds->depth < NODES);
-    if (plain_behind(&frame, corner))
+    if (plain_behind(&frame, level))
         return;
-    uint8_t planes = REFINE_ALL_PLANES;
-    bounds->out[bounds->depth] = outside(&frame, &bounds->view, corner, &planes);
-    bounds->planes[bounds->depth++] = planes;
-    const yb_point_t *point[6] = {corner[0], corner[1], corner[2]};
-    yb_point_t middle[3];
-    int pattern = 0;
-    for (int i = 0; i < 3; i++) {
-        check_point(bounds, corner[i]);
-        if (!refine_splits(&frame, corner[i], corner[(i + 1) % 3]))
-            continue;
-        refine_middle(&frame, corner[i], corner[(i + 1) % 3], &middle[i]);
-        point[3 + i] = &middle[i];
-        pattern |= 1 << i;
-    }
-    for (int k = 0; pattern != 0 && k < SPLIT_CHILDREN; k++) {
-        const uint8_t *child = split_child[pattern][k];
-        if (child[0] == SPLIT_END)
-            break;
-        const yb_point_t *const below[3] = {point[child[0]], point[child[1]], point[child[2]]};
-        descend(bounds, below);
+    refine_pattern(&frame, level);
+    bounds->out[bounds->depth++] =
+        refine_misses(&frame, &bounds->view, level->point, 3, refine_stray(&frame, level));
+    for (int i = 0; i < 3; i++)
+        check_point(bounds, level->point[i]);
+    if (level->pattern != 0) {
+        refine_split(&frame, level);
+        yb_level_t part;
+        for (int k = 0; refine_part(level, k, &part); k++)
+            descend(bounds, &part);
     }
     bounds->depth--;
 }
@@ -151,58 +170,43 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
     (void)state;
     rng_t rng = {62};
     bounds_t bounds = {.depth = 0};
-    for (int round = 0; round < 120; round++) {
+    for (int round = 0; round < 400; round++) {
         begin_random_frame(&rng, round);
         bounds.first_row = rng_range(&rng, 0, frame.screen.height - 1);
         bounds.end_row = rng_range(&rng, bounds.first_row + 1, frame.screen.height);
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
-            yb_point_t root[3];
-            for (int i = 0; i < 3; i++)
-                refine_root(&frame, map.triangle[t][i], &root[i]);
-            const yb_point_t *const corner[3] = {&root[0], &root[1], &root[2]};
-            descend(&bounds, corner);
+            yb_level_t root;
+            refine_root(&frame, &root, (yb_triangle_t)t);
+            descend(&bounds, &root);
         }
     }
-    print_message("%.0f points inside planes, %.0f of triangles outside\n", (double)bounds.checked,
-                  (double)bounds.out_checked);
-    assert_true(bounds.checked > 100000 && bounds.out_checked > 10000);
+    print_message("%.0f points of triangles outside\n", (double)bounds.outside);
+    assert_true(bounds.outside > 10000);
 }
 
 /* The rows that a base triangle is binned to hold all rows it touches. */
-static void check_rows(uint16_t t, const yb_point_t *point)
+static void check_rows(int t, const yb_point_t *point)
 {
-    if (!point->visible || point->x_q4 < 0 || point->x_q4 >= frame.screen.width * 16 ||
-        point->y_q4 < 0 || point->y_q4 >= frame.screen.height * 16)
+    const yb_spot_t *spot = &point->spot;
+    if (spot->near == 0 || spot->x_q4 < 0 || spot->x_q4 >= frame.screen.width * 16 ||
+        spot->y_q4 < 0 || spot->y_q4 >= frame.screen.height * 16)
         return;
-    uint32_t row = (uint32_t)point->y_q4 >> 4 >> YB_ROW_SHIFT;
-    assert_in_range(row, frame.first_row[t], frame.last_row[t]);
+    assert_in_range(spot->y_q4 >> 4 >> frame.row_shift, frame.rows[t] >> 4, frame.rows[t] & 15);
 }
 
-typedef struct {
-    uint16_t triangle;
-} rows_t;
-
-static void check_leaf_rows(void *context, const yb_point_t *const p[3])
+static void check_bins(int t, yb_level_t *level)
 {
-    rows_t *rows = context;
-    /* Leaves come triangle by triangle: find whose this is by its middle. */
-    int64_t x = (int64_t)p[0]->at.x_q8 + p[1]->at.x_q8 + p[2]->at.x_q8;
-    int64_t y = (int64_t)p[0]->at.y_q8 + p[1]->at.y_q8 + p[2]->at.y_q8;
-    for (;; rows->triangle++) {
-        assert_true(rows->triangle < map.triangle_count);
-        bool inside = true;
-        for (int i = 0; i < 3; i++) {
-            const yb_vertex_t *a = &map.vertex[map.triangle[rows->triangle][i]];
-            const yb_vertex_t *b = &map.vertex[map.triangle[rows->triangle][(i + 1) % 3]];
-            inside = inside && (int64_t)(b->x_q8 - a->x_q8) * (y - 3 * (int64_t)a->y_q8) >
-                                   (int64_t)(b->y_q8 - a->y_q8) * (x - 3 * (int64_t)a->x_q8);
-        }
-        if (inside)
-            break;
-    }
+    if (plain_behind(&frame, level))
+        return;
     for (int i = 0; i < 3; i++)
-        check_rows(rows->triangle, p[i]);
+        check_rows(t, level->point[i]);
+    if (refine_pattern(&frame, level) == 0)
+        return;
+    refine_split(&frame, level);
+    yb_level_t part;
+    for (int k = 0; refine_part(level, k, &part); k++)
+        check_bins(t, &part);
 }
 
 static void bins_hold_their_triangles(void **state)
@@ -211,8 +215,11 @@ static void bins_hold_their_triangles(void **state)
     rng_t rng = {63};
     for (int round = 0; round < 100; round++) {
         begin_random_frame(&rng, round);
-        rows_t rows = {0};
-        (void)plain_leaves(&frame, check_leaf_rows, &rows);
+        for (int t = 0; t < map.triangle_count; t++) {
+            yb_level_t root;
+            refine_root(&frame, &root, (yb_triangle_t)t);
+            check_bins(t, &root);
+        }
     }
 }
 
@@ -220,6 +227,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edges_are_the_same_from_both_ends),
+        cmocka_unit_test(midpoints_are_the_surfaces),
         cmocka_unit_test(bounds_hold_all_that_a_triangle_becomes),
         cmocka_unit_test(bins_hold_their_triangles),
     };

@@ -103,7 +103,7 @@ static void noise_keeps_to_the_gravity_limit(void **state)
 
 /* --- The noise -------------------------------------------------------------------------------- */
 
-/* Of the sum of four bytes less its mean, cut to ±HASH_MOST: from its whole distribution. */
+/* Of the sum of four bytes less its mean, cut to ±RELIEF_HASH_MOST: from its whole distribution. */
 static double deviation_of_four_bytes(void)
 {
     static double ways[2][1021];
@@ -119,7 +119,8 @@ static double deviation_of_four_bytes(void)
         }
     }
     for (int sum = 0; sum < 1021; sum++)
-        squares += ways[0][sum] * pow(fix_clamp(sum - HASH_MEAN, -HASH_MOST, HASH_MOST), 2);
+        squares += ways[0][sum] *
+                   pow(fix_clamp(sum - RELIEF_HASH_MEAN, -RELIEF_HASH_MOST, RELIEF_HASH_MOST), 2);
     return sqrt(squares);
 }
 
@@ -135,8 +136,9 @@ static void noise_is_centred_and_has_its_deviation(void **state)
         const int n = 1 << 18;
         for (int i = 0; i < n; i++) {
             /* Neighbours on the finest lattice, row by row of a small square. */
-            int32_t noise = place_noise(&map, (uint32_t)(i & 511), (uint32_t)(i >> 9));
-            assert_in_range(noise + HASH_MOST, 0, 2 * HASH_MOST);
+            uint32_t place = (uint32_t)(i & 511) | (uint32_t)(i >> 9) << 16;
+            int32_t noise = relief_noise(place, map.seed);
+            assert_in_range(noise + RELIEF_HASH_MOST, 0, 2 * RELIEF_HASH_MOST);
             sum += noise;
             squares += (double)noise * noise;
             along += (double)noise * before;
@@ -158,9 +160,9 @@ static void seeds_give_different_noise(void **state)
         double squares = 0;
         for (uint32_t i = 0; i < 4096; i++) {
             map.seed = (uint8_t)(seed - 1);
-            int32_t a = place_noise(&map, i * 16, i * 112 & 0xffff);
+            int32_t a = relief_noise(i * 16 | (i * 112 & 0xffff) << 16, map.seed);
             map.seed = (uint8_t)seed;
-            int32_t b = place_noise(&map, i * 16, i * 112 & 0xffff);
+            int32_t b = relief_noise(i * 16 | (i * 112 & 0xffff) << 16, map.seed);
             product += (double)a * b;
             squares += (double)a * a;
         }

@@ -16,7 +16,7 @@
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (4.9 KB with 255 vertices)
  *   yb_load_t   working memory of decoding: until YB_OK           (5.5 KB)
- *   yb_frame_t  working memory of drawing: one frame at a time    (6.3 KB)
+ *   yb_frame_t  working memory of drawing: one frame at a time    (4.6 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
  *
  * Threads. Calls on different structs are independent; a loaded map is only read by the frames.
@@ -358,7 +358,8 @@ typedef struct {
     uint16_t azimuth_bam;   /* of the picture's upward direction when looking straight down */
     uint16_t zoom_q12;      /* focal length in frame widths: 4392 is 50 degrees across */
     uint16_t exaggerate_q8; /* vertical scale: 256 is true */
-    uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel */
+    uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than a
+                             * sixteenth of the screen's width */
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool walls;             /* draw the block's sides, down to its base */
     int32_t water_q8;       /* water level, or YB_NO_WATER */
@@ -366,8 +367,9 @@ typedef struct {
                              * mesh has triangles; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to 7 pixels, sun in the north-west 30
- * degrees high, walls, no water, no bound; eye and look as by yb_view_orbit south of the map.
+/* The standard: 50 degrees across, true scale, edges up to a sixteenth of the screen's width, sun
+ * in the north-west 30 degrees high, walls, no water, no bound; eye and look as by yb_view_orbit
+ * south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
 
@@ -418,32 +420,46 @@ typedef struct {
     uint32_t depth_limited; /* left unsplit for want of YB_MAX_LEVELS */
 } yb_stats_t;
 
-/* A point of the surface, seen. Private to the renderer. */
+/* A place on the screen: 1/16 pixel, x to the right and y down, and 1/depth, 65535 at the near
+ * distance. near 0: behind that, or a screen size or more beyond the screen; then x is 0 and y
+ * INT32_MIN. Private to the renderer, like all that follows up to yb_frame_begin.
+ */
 typedef struct {
-    yb_vertex_t at;
-    int32_t right_q8, up_q8, depth_q8; /* view space; depth counts from the eye */
-    int32_t x_q4, y_q4;                /* on the screen, 1/16 pixel; if visible */
-    uint16_t near;                     /* 1/depth, 65535 at the near distance */
-    bool visible;                      /* false: needs clipping before it can be projected */
+    int32_t x_q4, y_q4;
+    int32_t near;
+} yb_spot_t;
+
+/* A vertex on the screen, as yb_spot_t in fewer bytes. */
+#if YB_MAX_SIDE <= 512
+typedef int16_t yb_side_t;
+#else
+typedef int32_t yb_side_t;
+#endif
+typedef struct {
+    yb_side_t x_q4, y_q4;
+    uint16_t near;
+} yb_seen_t;
+
+/* A point of the surface, and where it is seen. */
+typedef struct {
+    uint32_t place; /* x_q8, and y_q8 in the upper half */
+    uint32_t slope; /* gx_q11 + 2^15, and gy_q11 + 2^15 in the upper half */
+    int32_t z_q8;   /* of the ground */
+    int32_t top_q8; /* of what is drawn: the ground, or the water over it */
+    yb_spot_t spot; /* of top_q8 */
 } yb_point_t;
 
-/* A level of refinement. Private. */
-typedef struct {
-    const yb_point_t *corner[3];
-    yb_point_t middle[3];
-    uint8_t pattern; /* which edges are split */
-    uint8_t child;   /* next child to visit */
-    uint8_t planes;  /* sides of the view that it may still stick out of */
-} yb_level_t;
+/* An edge of a triangle that is being refined: see refine.h. */
+typedef uint32_t yb_edge_t;
 
-/* Rows are binned in units that fit a byte. */
-#if YB_MAX_SIDE > 2048
-#define YB_ROW_SHIFT 4
-#elif YB_MAX_SIDE > 512
-#define YB_ROW_SHIFT 3
-#else
-#define YB_ROW_SHIFT 1
-#endif
+/* A level of refinement: a triangle, and how it is split. */
+typedef struct {
+    const yb_point_t *point[6]; /* its corners; the midpoints of its edges */
+    yb_edge_t edge[9];          /* its own three; a half of each; those between its parts */
+    yb_point_t middle[3];
+    const uint8_t *next; /* of its parts to visit */
+    uint8_t pattern;     /* which edges are split */
+} yb_level_t;
 
 /* Working memory of a frame. Only stats is for the caller to read. */
 typedef struct {
@@ -451,20 +467,28 @@ typedef struct {
     const yb_map_t *map;
     yb_view_t view;
     yb_screen_t screen;
-    int32_t near_q8;                     /* nothing nearer is drawn */
-    int32_t near_scaled;                 /* near_q8 as 15 bits … */
-    int32_t near_shift;                  /* … times 2^near_shift */
-    int32_t lift_up_q9;                  /* what one unit of height does to a point's up_q8 … */
-    int32_t lift_back_q9;                /* … and takes off its depth_q8: exaggeration included */
-    int32_t base_q8;                     /* where the walls end */
-    int32_t focal_q4;                    /* pixels */
-    int32_t split_q4;                    /* an edge is split if length * split_q4 > depth * 16 */
-    int32_t tone_q16;                    /* hues per height unit */
-    uint8_t first_row[YB_MAX_TRIANGLES]; /* of a base triangle, in units of 1 << YB_ROW_SHIFT */
-    uint8_t last_row[YB_MAX_TRIANGLES];  /* before first_row: not on the screen */
-    struct {
-        int32_t right_q8, up_q8, depth_q8;
-    } seen[YB_MAX_VERTICES];
+    /* From the map to the view: rows right, up and depth, Q14. Places are taken relative to the
+     * eye and shifted right by eye_shift, which gives them 16 bits. */
+    int32_t right_x, right_y, up_x, up_y, up_z, depth_x, depth_y, depth_z;
+    uint8_t eye_shift;
+    uint8_t lift_shift;
+    int16_t lift;        /* pixels that one unit of height rises on the screen, by 1/depth */
+    int32_t most_bend;   /* height times 1/depth that changes a point's depth by a 64th */
+    int32_t sway_x_q4;   /* farthest that one unit of height moves a point on the screen, … */
+    int32_t sway_y_q4;   /* … by 1/depth: see refine.c */
+    int32_t spare_q4;    /* what rounding in view space does at the near distance */
+    int32_t near;        /* nothing nearer is drawn: view space, q8 >> eye_shift */
+    int32_t near_scaled; /* near as 15 bits … */
+    int32_t near_shift;  /* … times 2^near_shift */
+    int32_t base_q8;     /* where the walls end */
+    int32_t focal_q4;    /* pixels */
+    uint32_t longest;    /* an edge is split while length * 1/depth is above it */
+    int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
+    int32_t tone_q16;                             /* hues per height unit */
+    uint8_t row_shift;              /* rows are binned by so many bits: at most 16 bins */
+    uint8_t rows[YB_MAX_TRIANGLES]; /* of a base triangle: first and last bin, a nibble each */
+    uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
+    yb_seen_t seen[YB_MAX_VERTICES];
     yb_point_t root[3];
     yb_level_t level[YB_MAX_LEVELS];
 } yb_frame_t;
