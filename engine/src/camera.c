@@ -5,6 +5,7 @@
 
 #define FAR_Q8 ((int32_t)4096 * 256) /* positions are clamped to this */
 #define MOST_FOCAL_Q4 61440
+#define MOST_BEND ((int32_t)1 << 28)
 
 enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
@@ -157,7 +158,7 @@ static void find_lift(yb_frame_t *frame)
     int64_t bend = ((int64_t)fix_abs(frame->depth_z) * frame->view.exaggerate_q8) >> 8;
     uint64_t whole = (uint64_t)65535 * (uint32_t)frame->near << (14 + frame->eye_shift); /* 55 */
     uint64_t most = bend > 0 ? whole / (uint64_t)(64 * bend) : INT32_MAX;
-    frame->most_bend = most < 1 << 28 ? (int32_t)most : 1 << 28;
+    frame->most_bend = most < MOST_BEND ? (int32_t)most : MOST_BEND;
     /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
     int64_t wide = frame->screen.width * 24;
     int64_t high = frame->screen.height * 24;

@@ -24,7 +24,7 @@ static const uint16_t sine_table[65] YB_ROM = {
     15679, 15791, 15893, 15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384};
 
 /* round(2^21 / (64 + i)) */
-static const uint16_t reciprocal_table[65] = {
+static const uint16_t reciprocal_table[65] YB_ROM = {
     32768, 32264, 31775, 31301, 30840, 30394, 29959, 29537, 29127, 28728, 28340, 27962, 27594,
     27236, 26887, 26546, 26214, 25891, 25575, 25267, 24966, 24672, 24385, 24105, 23831, 23564,
     23302, 23046, 22795, 22550, 22310, 22075, 21845, 21620, 21400, 21183, 20972, 20764, 20560,
@@ -80,7 +80,8 @@ int32_t fix_reciprocal(int32_t a)
     /* The top 6 bits after the leading one look up, the other 8 interpolate: the chord lies up to
      * h^2/8 f'' = 2^13 2^-12 = 2 above the curve. */
     const uint16_t *at = &reciprocal_table[(a >> 8) - 64];
-    return at[0] - (((at[0] - at[1]) * (a & 255)) >> 8);
+    int32_t low = yb_rom_u16(&at[0]);
+    return low - (((low - yb_rom_u16(&at[1])) * (a & 255)) >> 8);
 }
 
 uint32_t fix_sqrt(uint64_t a)

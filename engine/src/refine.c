@@ -1,5 +1,7 @@
 #include "refine.h"
 
+#include <yamabiko/rom.h>
+
 #include "camera.h"
 #include "clip.h"
 #include "fix.h"
@@ -271,7 +273,7 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, i
     for (; size > frame->longest && often < 16; size >>= 1)
         often++;
     if (whole == 0)
-        c = fix_max(c - 4, 0);
+        c = (int)fix_max(c - 4, 0);
     const relief_bound_t bound = {bulge, c};
     return now + relief_reach(map, &bound, c + 4 - 4 * often);
 }
@@ -320,7 +322,7 @@ enum {
     PARTS = 4,
     PART_END = 6
 };
-static const uint8_t part_table[8][3 * PARTS + 1] = {
+static const uint8_t part_table[8][3 * PARTS + 1] YB_ROM = {
     {PART_END},
     {0x30, 0x63, 0x22, 0x33, 0x11, 0x62, PART_END},
     {0x41, 0x64, 0x00, 0x44, 0x22, 0x60, PART_END},
@@ -333,7 +335,7 @@ static const uint8_t part_table[8][3 * PARTS + 1] = {
 /* The ends of the edges between the parts; 0: there is none. Where all three edges are split edge i
  * is half as long as, and parallel to, edge i of the triangle.
  */
-static const uint8_t inner_table[8][3] = {
+static const uint8_t inner_table[8][3] YB_ROM = {
     {0, 0, 0},    {0x32, 0, 0},    {0x40, 0, 0},    {0x43, 0x32, 0},
     {0x51, 0, 0}, {0x53, 0x51, 0}, {0x54, 0x40, 0}, {0x54, 0x53, 0x43},
 };
@@ -377,9 +379,12 @@ void refine_split(const yb_frame_t *frame, yb_level_t *level)
                       &level->middle[i]);
     }
     const uint8_t *ends = inner_table[level->pattern];
-    for (int i = 0; i < 3 && ends[i] != 0; i++) {
-        const yb_point_t *a = level->point[ends[i] & 15];
-        const yb_point_t *b = level->point[ends[i] >> 4];
+    for (int i = 0; i < 3; i++) {
+        uint8_t end = yb_rom_u8(&ends[i]);
+        if (end == 0)
+            break;
+        const yb_point_t *a = level->point[end & 15];
+        const yb_point_t *b = level->point[end >> 4];
         level->edge[6 + i] = level->pattern == 7
                                  ? refine_ask(frame, a, b, refine_half(level->edge[i]))
                                  : refine_edge(frame, a, b);
@@ -389,11 +394,12 @@ void refine_split(const yb_frame_t *frame, yb_level_t *level)
 bool refine_part(const yb_level_t *level, int k, yb_level_t *part)
 {
     const uint8_t *table = &part_table[level->pattern][3 * k];
-    if (table[0] == PART_END)
+    if (yb_rom_u8(&table[0]) == PART_END)
         return false;
     for (int i = 0; i < 3; i++) {
-        part->point[i] = level->point[table[i] & 15];
-        part->edge[i] = level->edge[table[i] >> 4];
+        uint8_t entry = yb_rom_u8(&table[i]);
+        part->point[i] = level->point[entry & 15];
+        part->edge[i] = level->edge[entry >> 4];
     }
     return true;
 }
@@ -473,13 +479,14 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
                  yb_triangle_t triangle)
 {
     /* The first level has one part: the base triangle as it is. */
-    static const uint8_t whole[4] = {0x00, 0x11, 0x22, PART_END};
+    static const uint8_t whole[4] YB_ROM = {0x00, 0x11, 0x22, PART_END};
     yb_level_t *level = frame->level;
     refine_root(frame, level, triangle);
     level->next = whole;
     for (;;) {
         const uint8_t *next = level->next;
-        if (next[0] == PART_END) {
+        uint8_t first = yb_rom_u8(&next[0]);
+        if (first == PART_END) {
             if (level == frame->level)
                 return;
             level--;
@@ -488,10 +495,11 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
         if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
         level->next = next + 3;
-        const yb_point_t *const p[3] = {level->point[next[0] & 15], level->point[next[1] & 15],
-                                        level->point[next[2] & 15]};
-        const yb_edge_t edge[3] = {level->edge[next[0] >> 4], level->edge[next[1] >> 4],
-                                   level->edge[next[2] >> 4]};
+        const uint8_t entry[3] = {first, yb_rom_u8(&next[1]), yb_rom_u8(&next[2])};
+        const yb_point_t *const p[3] = {level->point[entry[0] & 15], level->point[entry[1] & 15],
+                                        level->point[entry[2] & 15]};
+        const yb_edge_t edge[3] = {level->edge[entry[0] >> 4], level->edge[entry[1] >> 4],
+                                   level->edge[entry[2] >> 4]};
         fate_t fate = LEAF;
         if ((edge[0] | edge[1] | edge[2]) >= REFINE_ONCE) {
             for (int i = 0; i < 3; i++) {

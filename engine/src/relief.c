@@ -6,7 +6,7 @@
 
 enum {
     HASH_LOG2_Q11 = 14712, /* log2 of the standard deviation that remains, 145.37, in 1/2048 */
-    LONGEST_CLASS = 48 /* 32 steps: longer edges move like these */
+    LONGEST_CLASS = 48     /* 32 steps: longer edges move like these */
 };
 
 /* What gravity leaves: see relief_reach. */
@@ -19,8 +19,8 @@ enum {
 
 static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
 {
-    return relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11,
-                        fix_minus(b->x_q8, a->x_q8), fix_minus(b->y_q8, a->y_q8));
+    return relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, fix_minus(b->x_q8, a->x_q8),
+                        fix_minus(b->y_q8, a->y_q8));
 }
 
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,

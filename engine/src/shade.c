@@ -24,7 +24,7 @@ static const uint8_t wall_hue[3] YB_ROM = {150, 132, 112};
 static const uint8_t sky[3] YB_ROM = {206, 222, 236};
 
 /* round(2^31 / sqrt(i 2^26)) - 1 for i from 16 to 64 */
-static const uint16_t root_table[49] = {
+static const uint16_t root_table[49] YB_ROM = {
     65535, 63578, 61787, 60139, 58616, 57204, 55888, 54660, 53509, 52428, 51410, 50449, 49540,
     48678, 47860, 47081, 46340, 45632, 44956, 44309, 43690, 43095, 42524, 41976, 41448, 40939,
     40449, 39976, 39519, 39077, 38650, 38237, 37836, 37448, 37072, 36707, 36352, 36007, 35672,
@@ -62,8 +62,9 @@ uint16_t shade_background(const yb_frame_t *frame)
 static uint32_t reciprocal_root(uint32_t a)
 {
     uint32_t i = a >> 26;
-    uint32_t step = root_table[i - 16] - (uint32_t)root_table[i - 15];
-    return root_table[i - 16] + 1 - (step * (a >> 18 & 255) >> 8);
+    uint32_t root = yb_rom_u16(&root_table[i - 16]);
+    uint32_t step = root - yb_rom_u16(&root_table[i - 15]);
+    return root + 1 - (step * (a >> 18 & 255) >> 8);
 }
 
 /* The shade of a surface by the cosine between its upward normal n, of up to 30 bits, and the sun

@@ -21,7 +21,7 @@ void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
     const yb_index_t *corner = map->triangle[triangle];
     for (int i = 0; i < 3; i++) {
         if (on_one_side(map, &map->vertex[corner[i]], &map->vertex[corner[i == 2 ? 0 : i + 1]]))
-            frame->rim[triangle >> 3] |= (uint8_t)(1 << (triangle & 7));
+            frame->rim[triangle >> 3] = (uint8_t)(frame->rim[triangle >> 3] | 1 << (triangle & 7));
     }
 }
 
