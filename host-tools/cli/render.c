@@ -131,7 +131,7 @@ static int check(request_t *request)
         request->output[1] == '\0')
         return cli_usage("--json and '-o -' both want the standard output");
     if (request->panel != NULL)
-        request->view.screen = request->panel->screen;
+        yb_view_options_panel(&request->view, &request->panel->screen);
     if (!yb_view_options_check(view, &error))
         return cli_usage("%s", error.text);
     return cli_part_check(&request->part);

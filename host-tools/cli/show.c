@@ -134,7 +134,7 @@ static int check(request_t *request)
     if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||
         yb_view_options_given(&request->view, YB_OPTION_FORMAT))
         return cli_usage("the panel fixes size and format: leave --size and --format out");
-    request->view.screen = request->panel->screen;
+    yb_view_options_panel(&request->view, &request->panel->screen);
     return yb_view_options_check(&request->view, &error) ? CLI_OK : cli_usage("%s", error.text);
 }
 

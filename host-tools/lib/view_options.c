@@ -30,7 +30,8 @@ const char yb_view_options_help[] =
     "  --water M           water up to M metres above the datum\n"
     "  --exaggerate F      vertical scale, 0.01 to 8 (default 1)\n"
     "  --walls on|off      the sides of the block (default on)\n"
-    "  --edge PIXELS       longest edge of a triangle on the screen (default 6)\n"
+    "  --edge PIXELS       longest edge of a triangle on the screen (default 6; on a panel\n"
+    "                      what a device does: a sixteenth of its width)\n"
     "  --max-leaves N      at most N triangles (default: no bound)\n"
     "  --band ROWS         draw so many rows at a time (default: all); same pixels\n"
     "  --no-detail         the smooth surface, without fractal detail\n";
@@ -43,6 +44,7 @@ yb_view_options_t yb_view_options_default(void)
                                .distance = 1.2,
                                .fov_deg = 50,
                                .exaggerate = 1,
+                               .edge_px = 6,
                                .walls = true,
                                .detail = true};
 }
@@ -269,6 +271,13 @@ static bool apply_water(const yb_view_options_t *options, const yb_map_t *map, y
            to_q8(options->water_m - map->base_m, map, &view->water_q8);
 }
 
+void yb_view_options_panel(yb_view_options_t *options, const yb_screen_t *screen)
+{
+    options->screen = *screen;
+    if (!yb_view_options_given(options, YB_OPTION_EDGE))
+        options->edge_px = 0;
+}
+
 bool yb_view_options_apply(const yb_view_options_t *options, yb_map_t *map, yb_view_t *view,
                            yb_error_t *error)
 {
@@ -279,8 +288,7 @@ bool yb_view_options_apply(const yb_view_options_t *options, yb_map_t *map, yb_v
     view->exaggerate_q8 = (uint16_t)lround(options->exaggerate * 256);
     view->walls = options->walls;
     view->max_leaves = (uint32_t)options->max_leaves;
-    if (yb_view_options_given(options, YB_OPTION_EDGE))
-        view->edge_q4 = (uint16_t)lround(options->edge_px * 16);
+    view->edge_q4 = (uint16_t)lround(options->edge_px * 16);
     if (yb_view_options_given(options, YB_OPTION_SUN))
         yb_view_sun(view, bam(options->sun_deg[0]), bam(options->sun_deg[1]));
     if (!apply_water(options, map, view))

@@ -87,13 +87,15 @@ typedef struct {
     double sun_deg[2]; /* azimuth, elevation */
     double water_m;
     double exaggerate;
-    double edge_px;
+    double edge_px; /* 0: as yb_view_init */
     long max_leaves;
     bool walls;
     bool detail;
 } yb_view_options_t;
 
-/* 640 x 480 in RGB565, azimuth 45, elevation 30, distance 1.2, the rest as by yb_view_init. */
+/* 640 x 480 in RGB565, azimuth 45, elevation 30, distance 1.2, edges up to 6 pixels, the rest as by
+ * yb_view_init.
+ */
 yb_view_options_t yb_view_options_default(void);
 
 bool yb_view_options_owns(int option);
@@ -107,6 +109,9 @@ bool yb_view_options_take(yb_view_options_t *options, int option, int argc, char
 
 /* After the last option: false with a sentence if two of them contradict each other. */
 bool yb_view_options_check(const yb_view_options_t *options, yb_error_t *error);
+
+/* For what a device with this screen shows: by its standard, unless the options say otherwise. */
+void yb_view_options_panel(yb_view_options_t *options, const yb_screen_t *screen);
 
 /* The view on this map, in the engine's units; map->detail is set as well. False if a place or a
  * level lies too far from the map.

@@ -78,6 +78,7 @@ static void angles_are_rounded_once(void **state)
     assert_int_equal(view_of("--azimuth 359.999", &file->map).azimuth_bam, 0);
     assert_int_equal(view_of("--azimuth 0.0055", &file->map).azimuth_bam, 1);
     assert_int_equal(view_of("--edge 2.5", &file->map).edge_q4, 40);
+    assert_int_equal(view_of("", &file->map).edge_q4, 96);
     assert_int_equal(view_of("--max-leaves 12345", &file->map).max_leaves, 12345);
     assert_false(view_of("--walls off", &file->map).walls);
 
@@ -93,6 +94,21 @@ static void angles_are_rounded_once(void **state)
     yb_code_file_free(file);
 }
 
+/* A panel shows what the device does, or what is asked for. */
+static void panel(void **state)
+{
+    (void)state;
+    const yb_screen_t screen = {96, 16, YB_GREY4};
+    yb_view_options_t options = yb_view_options_default();
+    yb_error_t error;
+    yb_view_options_panel(&options, &screen);
+    assert_int_equal(options.screen.width, 96);
+    assert_true(options.edge_px <= 0);
+    assert_true(parse("--edge 3", &options, &error));
+    yb_view_options_panel(&options, &screen);
+    assert_true(options.edge_px >= 3);
+}
+
 static void screen_and_detail(void **state)
 {
     (void)state;
@@ -104,7 +120,6 @@ static void screen_and_detail(void **state)
     assert_int_equal(options.screen.format, YB_GREY4);
     assert_int_equal(options.band_rows, 8);
     assert_false(options.detail);
-
     yb_code_file_t *file = code_rough_hill();
     yb_view_t view;
     assert_true(file->map.detail);
@@ -184,9 +199,9 @@ static void far_places_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(metres_become_steps),    cmocka_unit_test(angles_are_rounded_once),
-        cmocka_unit_test(screen_and_detail),      cmocka_unit_test(contradictions_are_refused),
-        cmocka_unit_test(far_places_are_refused),
+        cmocka_unit_test(metres_become_steps),        cmocka_unit_test(angles_are_rounded_once),
+        cmocka_unit_test(screen_and_detail),          cmocka_unit_test(panel),
+        cmocka_unit_test(contradictions_are_refused), cmocka_unit_test(far_places_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
