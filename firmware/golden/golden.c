@@ -177,7 +177,10 @@ int main(void)
         const golden_code_t *code = &golden_codes[i];
         yb_status_t status = load_code(code);
         if (status != YB_OK) {
+            report_text(code->name);
+            report_text(" ");
             report_text(yb_status_text(status));
+            report_text("\r\n");
             break;
         }
         say_hash(code->name, "mesh", NULL, hash_mesh());
