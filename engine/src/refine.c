@@ -58,11 +58,11 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
     if (asked == edge || (fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
                           drowned(frame, a, b, refine_class(edge))))
         return edge;
+    if (!seen || change << 2 > near) /* or there are no spots */
+        return edge | REFINE_AGAIN;
     int32_t wide = fix_abs(a->spot.x_q4 - b->spot.x_q4);
     int32_t high = fix_abs(a->spot.y_q4 - b->spot.y_q4);
-    return seen && change << 2 <= near && (fix_max(wide, high) >> 4) * change <= 2 * near
-               ? asked
-               : edge | REFINE_AGAIN;
+    return (fix_max(wide, high) >> 4) * change <= 2 * near ? asked : edge | REFINE_AGAIN;
 }
 
 yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
