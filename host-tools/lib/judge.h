@@ -15,8 +15,8 @@ yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side);
 void yb_judge_free(yb_judge_t *judge);
 
 /* How bad a code is, in metres: root of the mean square of the height differences at the samples,
- * to which those of the rises from sample to sample are added, at half weight. (Refined to edges
- * of 16 steps.) A negative number if the code is impossible. The judge keeps the differences until
+ * to which those of the rises from sample to sample are added, at half weight, and that of the
+ * highest place. A negative number if the code is impossible. The judge keeps the differences until
  * the next call.
  */
 double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size);

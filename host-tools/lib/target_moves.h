@@ -12,7 +12,7 @@ typedef struct {
     int contour; /* what the change at hand is for, where it is for one */
 } yb_target_mover_t;
 
-/* One random change of mover->paper. False: this one was not possible. */
+/* One random change of mover->set. False: this one was not possible. */
 bool yb_target_move(yb_target_mover_t *mover);
 
 /* Adds the isoline of the truth at a height: the longest (or, if `random`, any, long ones rather),
