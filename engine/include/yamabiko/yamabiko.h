@@ -281,7 +281,7 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
  * Cost: a hundred-byte code takes about 1.9 M instructions on a Cortex-M3, 251 scattered summits
- * 3.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * 3.3 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);
