@@ -37,7 +37,10 @@ static yb_code_file_t *encode(const yb_grid_t *grid, const yb_sections_t *sectio
         .most_bytes = bytes, .profile = YB_COMPACT, .seed = 1, .effort = 1, .sections = sections};
     if (!yb_encode_grid(grid, &task, &result, &error))
         fail_msg("%s", error.text);
-    return result.code;
+    yb_code_file_t *file = result.code;
+    result.code = NULL; /* it is the caller's now */
+    yb_encode_result_free(&result);
+    return file;
 }
 
 static int begin(void **state)
@@ -340,7 +343,7 @@ static void test_they_count_into_the_bytes(void **state)
     task.most_bytes = least;
     if (yb_encode_grid(grid, &task, &result, &error)) {
         assert_true(result.code->size <= least);
-        yb_code_file_free(result.code);
+        yb_encode_result_free(&result);
     } else {
         fail_msg("%s", error.text);
     }
