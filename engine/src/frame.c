@@ -2,10 +2,10 @@
 #include <string.h>
 
 #include "camera.h"
+#include "colour.h"
 #include "fix.h"
 #include "refine.h"
 #include "relief.h"
-#include "shade.h"
 
 /* May a base triangle touch the rows from first up to end? One that is not on the screen has its
  * last bin before the first.
@@ -56,6 +56,26 @@ static int32_t farthest_stray(yb_frame_t *frame)
     return fix_max(farthest, frame->view.water_q8 - fix_min(map->low_q8, frame->view.water_q8));
 }
 
+/* The contour line below all that shade_cut asks for: heights, less a quarter of a triangle's. Above
+ * it all of them are below 2^21.
+ */
+static void begin_lines(yb_frame_t *frame, int32_t stray)
+{
+    const yb_map_t *map = frame->map;
+    const yb_view_t *view = &frame->view;
+    frame->contour_inverse = 0;
+    frame->lines = view->water_q8 != YB_NO_WATER;
+    if (view->contour_q8 <= 0)
+        return;
+    frame->lines = true;
+    int32_t interval = fix_clamp(view->contour_q8, YB_LEAST_CONTOUR_Q8, YB_MOST_CONTOUR_Q8);
+    int32_t at = fix_clamp(view->contour_at_q8, -8 * YB_MAX_HEIGHT_Q8, 8 * YB_MAX_HEIGHT_Q8);
+    int32_t low = map->low_q8 - stray - ((map->high_q8 - map->low_q8 + 2 * stray) >> 2) - 2;
+    frame->view.contour_q8 = interval;
+    frame->contour_low = at + ((low - at) / interval - 1) * interval;
+    frame->contour_inverse = ((uint32_t)1 << 20) / (uint32_t)interval;
+}
+
 void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,
                     const yb_screen_t *screen)
 {
@@ -64,8 +84,11 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->view = *view;
     frame->screen = *screen;
     camera_clamp(frame);
-    camera_begin(frame, farthest_stray(frame));
-    shade_begin(frame);
+    int32_t stray = farthest_stray(frame);
+    camera_begin(frame, stray);
+    begin_lines(frame, stray);
+    frame->even_water = view->shadow == NULL && view->haze_q8 <= 0;
+    colour_begin(frame);
     frame->row_shift = 0;
     while ((screen->height - 1) >> frame->row_shift > 15)
         frame->row_shift++;
@@ -91,7 +114,9 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
         return;
     refine_view_t view;
     refine_see(frame, raster.first_row, raster.end_row, &view);
-    raster_clear(&raster, shade_background(frame));
+    raster_clear(&raster);
+    for (int32_t y = raster.first_row; y < raster.end_row; y++)
+        raster_row(&raster, y, colour_sky(frame, y));
     for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
         if (in_rows(frame, t, raster.first_row, raster.end_row))
             refine_draw(frame, &view, &raster, t);

@@ -2,25 +2,67 @@
 
 #include <string.h>
 
+#include <yamabiko/rom.h>
+
 #include "fix.h"
 
-void raster_clear(const raster_t *raster, uint16_t pixel)
+/* --- Pixels ----------------------------------------------------------------------------------- */
+
+/* dither_table[m][y]: which of every four pixels of a row are lit at a shade that reaches m of 16,
+ * the leftmost in the highest bit, twice: Bayer's order of four by four.
+ */
+static const uint8_t dither_table[17][4] YB_ROM = {
+    {0x00, 0x00, 0x00, 0x00}, {0x88, 0x00, 0x00, 0x00}, {0x88, 0x00, 0x22, 0x00},
+    {0xaa, 0x00, 0x22, 0x00}, {0xaa, 0x00, 0xaa, 0x00}, {0xaa, 0x44, 0xaa, 0x00},
+    {0xaa, 0x44, 0xaa, 0x11}, {0xaa, 0x55, 0xaa, 0x11}, {0xaa, 0x55, 0xaa, 0x55},
+    {0xee, 0x55, 0xaa, 0x55}, {0xee, 0x55, 0xbb, 0x55}, {0xff, 0x55, 0xbb, 0x55},
+    {0xff, 0x55, 0xff, 0x55}, {0xff, 0xdd, 0xff, 0x55}, {0xff, 0xdd, 0xff, 0x77},
+    {0xff, 0xff, 0xff, 0x77}, {0xff, 0xff, 0xff, 0xff},
+};
+
+/* What a pixel value is in one row: where a pixel is a bit, eight of them side by side. Shade 15 is
+ * all of them.
+ */
+static inline uint16_t in_row(const raster_t *raster, uint16_t pixel, int32_t y)
 {
-    const yb_band_t *band = raster->band;
-    size_t width = raster->screen->width;
-    size_t rows = (size_t)(raster->end_row - raster->first_row);
-    memset(band->depth, 0, rows * width * sizeof *band->depth);
-    uint8_t *row = band->pixels;
-    for (; rows > 0; rows--, row += band->pitch) {
-        if (raster->screen->format == YB_GREY4) {
-            memset(row, (int)(pixel * 17), width / 2);
-            continue;
-        }
-        for (size_t x = 0; x < width; x++) {
-            row[2 * x] = (uint8_t)(pixel >> 8);
-            row[2 * x + 1] = (uint8_t)pixel;
-        }
+    if (raster->screen->format != YB_MONO)
+        return pixel;
+    return yb_rom_u8(&dither_table[pixel + (pixel >> 3)][y & 3]);
+}
+
+/* `pixel` as of in_row. */
+static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, uint16_t pixel)
+{
+    if (raster->screen->format == YB_RGB565) {
+        row[2 * x] = (uint8_t)(pixel >> 8);
+        row[2 * x + 1] = (uint8_t)pixel;
+    } else if (raster->screen->format == YB_MONO) {
+        uint8_t bit = (uint8_t)(0x80 >> (x & 7));
+        row[x >> 3] = (uint8_t)((row[x >> 3] & ~bit) | (pixel & bit));
+    } else if ((x & 1) == 0) {
+        row[x >> 1] = (uint8_t)((row[x >> 1] & 0x0f) | pixel << 4);
+    } else {
+        row[x >> 1] = (uint8_t)((row[x >> 1] & 0xf0) | pixel);
     }
+}
+
+void raster_clear(const raster_t *raster)
+{
+    size_t rows = (size_t)(raster->end_row - raster->first_row);
+    memset(raster->band->depth, 0, rows * raster->screen->width * sizeof *raster->band->depth);
+}
+
+void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
+{
+    const yb_screen_t *screen = raster->screen;
+    uint8_t *row = raster->band->pixels + (size_t)(y - raster->first_row) * raster->band->pitch;
+    if (screen->format != YB_RGB565) {
+        memset(row, screen->format == YB_MONO ? in_row(raster, pixel, y) : pixel * 17,
+               yb_screen_pitch(screen));
+        return;
+    }
+    for (int32_t x = 0; x < screen->width; x++)
+        put_pixel(raster, row, x, pixel);
 }
 
 /* --- The plane of 1/depth --------------------------------------------------------------------- */
@@ -42,12 +84,13 @@ static int32_t ratio_q18(int32_t a, int32_t b)
     return a < 0 ? -(int32_t)q : (int32_t)q;
 }
 
-/* Change of 1/depth per pixel, 14 fractional bits, along x and y. Differences are scaled down until
+/* Change of 1/depth, or of another value, per pixel, 14 fractional bits, along x and y. Differences are scaled down until
  * they have 13 bits: 1/depth has 16, so each sum of two products is below 2^30. Accuracy is only
  * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on
  * that its gradient must be cut would get depths far from its own: it is taken as flat.
  */
-static void depth_gradient(const yb_spot_t *const p[3], int32_t *along_x, int32_t *along_y)
+static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], int32_t *along_x,
+                          int32_t *along_y)
 {
     int32_t x1 = p[1]->x_q4 - p[0]->x_q4;
     int32_t y1 = p[1]->y_q4 - p[0]->y_q4;
@@ -57,8 +100,8 @@ static void depth_gradient(const yb_spot_t *const p[3], int32_t *along_x, int32_
     int shift = 0;
     while (all >> shift >= 1u << 13)
         shift++;
-    int32_t d1 = p[1]->near - p[0]->near;
-    int32_t d2 = p[2]->near - p[0]->near;
+    int32_t d1 = value[1] - value[0];
+    int32_t d2 = value[2] - value[0];
     int32_t size = (int32_t)(((raster_area_t)x1 * y2 - (raster_area_t)y1 * x2) >> shift);
     *along_x = *along_y = 0;
     if (size > 0) {
@@ -105,22 +148,23 @@ static inline void edge_start(edge_t *edge, const yb_spot_t *p, const yb_spot_t 
     edge->down = (raster_area_t)dx * 16;
 }
 
-/* --- The pixels ------------------------------------------------------------------------------- */
+/* --- Triangles -------------------------------------------------------------------------------- */
 
 typedef struct {
-    uint32_t near_q14; /* 1/depth at a pixel */
+    uint32_t at_q14; /* the value at a pixel */
     int32_t along_x, along_y;
 } plane_t;
 
-/* 1/depth at the pixel (0, y). */
-static void plane_start(plane_t *plane, const yb_spot_t *const p[3], int32_t y)
+/* The value at the pixel (0, y), from values of 16 bits at the corners. */
+static void plane_start(plane_t *plane, const yb_spot_t *const p[3], const int32_t value[3],
+                        int32_t y)
 {
-    depth_gradient(p, &plane->along_x, &plane->along_y);
+    find_gradient(p, value, &plane->along_x, &plane->along_y);
     /* From corner 0, whole pixels to where this band begins: the same depth in every band.
      * Unsigned: partial sums may wrap, the depth inside the triangle does not. */
     int32_t x0 = raster_pixel(p[0]->x_q4);
     int32_t y0 = raster_pixel(p[0]->y_q4);
-    plane->near_q14 = ((uint32_t)p[0]->near << 14) + ((uint32_t)1 << 13) +
+    plane->at_q14 = ((uint32_t)value[0] << 14) + ((uint32_t)1 << 13) +
                       (uint32_t)(plane->along_x >> 4) * (uint32_t)(x0 * 16 + 8 - p[0]->x_q4) +
                       (uint32_t)(plane->along_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0]->y_q4) -
                       (uint32_t)plane->along_x * (uint32_t)x0 +
@@ -132,23 +176,11 @@ static inline uint16_t depth_of(uint32_t near_q14)
     return (uint16_t)fix_clamp((int32_t)near_q14 >> 14, 1, 65535);
 }
 
-static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, uint16_t pixel)
-{
-    if (raster->screen->format == YB_RGB565) {
-        row[2 * x] = (uint8_t)(pixel >> 8);
-        row[2 * x + 1] = (uint8_t)pixel;
-    } else if ((x & 1) == 0) {
-        row[x >> 1] = (uint8_t)((row[x >> 1] & 0x0f) | pixel << 4);
-    } else {
-        row[x >> 1] = (uint8_t)((row[x >> 1] & 0xf0) | pixel);
-    }
-}
-
 /* The pixels from x up to end of a row. */
 static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x, int32_t end,
                       const plane_t *plane, uint16_t pixel)
 {
-    uint32_t near = plane->near_q14 + (uint32_t)plane->along_x * (uint32_t)x;
+    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
     for (; x < end; x++, near += (uint32_t)plane->along_x) {
         if (depth_of(near) > depth[x]) {
             depth[x] = depth_of(near);
@@ -173,9 +205,54 @@ static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *
     }
     for (; x < end; x++) {
         if (near > depth[x]) {
-            uint8_t *at = &row[x >> 1];
             depth[x] = near;
-            *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
+            put_pixel(raster, row, x, pixel);
+        }
+    }
+}
+
+/* A triangle's cut, as it goes from row to row. */
+typedef struct {
+    const raster_cut_t *cut;
+    plane_t plane;
+    int32_t half; /* of a line's width in value, and of the interval, 14 fractional bits */
+    int32_t half_interval;
+} cutter_t;
+
+/* False: the lines would lie so close together that nothing else would be left. */
+static bool cutter_start(cutter_t *cutter, const raster_t *raster, const yb_spot_t *a,
+                         const yb_spot_t *b, const yb_spot_t *c, int32_t y)
+{
+    const yb_spot_t *const p[3] = {a, c, b};
+    cutter->cut = raster->cut;
+    if (raster->cut == NULL)
+        return false;
+    const int32_t value[3] = {raster->cut->value[0], raster->cut->value[2], raster->cut->value[1]};
+    plane_start(&cutter->plane, p, value, y);
+    cutter->plane.at_q14 -= (uint32_t)raster->cut->zero << 14;
+    cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
+    cutter->half_interval = raster->cut->interval << 13;
+    return raster->cut->interval == 0 || cutter->half < cutter->half_interval >> 2;
+}
+
+/* As draw_span, with lines. Values are below 2^16, and the interval is: within 2^30. */
+static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t y, int32_t x,
+                     int32_t end, const plane_t *plane, const cutter_t *cutter)
+{
+    const raster_cut_t *cut = cutter->cut;
+    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
+    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
+    const uint16_t below = in_row(raster, cut->below, y);
+    const uint16_t above = in_row(raster, cut->above, y);
+    const uint16_t line = in_row(raster, cut->line, y);
+    for (; x < end; x++, near += (uint32_t)plane->along_x) {
+        int32_t off = (int32_t)value;
+        while (cut->interval > 0 && off >= cutter->half_interval)
+            off -= 2 * cutter->half_interval;
+        value += (uint32_t)cutter->plane.along_x;
+        if (depth_of(near) > depth[x]) {
+            depth[x] = depth_of(near);
+            put_pixel(raster, row, x, fix_abs(off) <= cutter->half ? line : off < 0 ? below : above);
         }
     }
 }
@@ -203,8 +280,14 @@ void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
     /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
     uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
     uint16_t near = (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
-    if (look == RASTER_FRONT)
-        plane_start(&plane, p, y);
+    if (look == RASTER_FRONT) {
+        const int32_t nears[3] = {p[0]->near, p[1]->near, p[2]->near};
+        plane_start(&plane, p, nears, y);
+    }
+    cutter_t cutter = {NULL, {0, 0, 0}, 0, 0};
+    bool cuts = cutter_start(&cutter, raster, a, b, c, y);
+    if (look != RASTER_FRONT)
+        plane.at_q14 = (uint32_t)near << 14;
     int32_t line = y - raster->first_row;
     uint16_t *depth = raster->band->depth + line * raster->screen->width;
     uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
@@ -234,13 +317,16 @@ void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
         edge_settle(&left);
         int32_t x = fix_max(left.x, 0);
         int32_t end = fix_min(right.x, raster->screen->width);
-        if (look != RASTER_FRONT)
-            draw_level(raster, depth, row, x, end, near, pixel);
+        if (cuts)
+            draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
+        else if (look != RASTER_FRONT)
+            draw_level(raster, depth, row, x, end, near, in_row(raster, pixel, y));
         else
-            draw_span(raster, depth, row, x, end, &plane, pixel);
+            draw_span(raster, depth, row, x, end, &plane, in_row(raster, pixel, y));
         if (++y >= end_y)
             return;
-        plane.near_q14 += (uint32_t)plane.along_y;
+        plane.at_q14 += (uint32_t)plane.along_y;
+        cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
         depth += raster->screen->width;
         row += raster->band->pitch;
     }

@@ -14,14 +14,29 @@ typedef int32_t raster_area_t;
 typedef int64_t raster_area_t;
 #endif
 
+/* Lines across a triangle: where a value that is linear on it, 0 to 65535 at its corners, equals
+ * `zero`, or that and any multiple of the interval. A line is about a pixel wide. Where there is no
+ * interval one side of it has another pixel value.
+ */
+typedef struct {
+    int32_t value[3];
+    int32_t zero;
+    int32_t interval; /* 0: there is one line only */
+    uint16_t below, above, line;
+} raster_cut_t;
+
 typedef struct {
     const yb_screen_t *screen;
     const yb_band_t *band;
     int32_t first_row, end_row; /* of the screen */
+    const raster_cut_t *cut;    /* of the triangle to come, or NULL */
 } raster_t;
 
-/* Clears the band's depths and fills it with one pixel value. */
-void raster_clear(const raster_t *raster, uint16_t pixel);
+/* Clears the band's depths. */
+void raster_clear(const raster_t *raster);
+
+/* Fills a row of the band, y counted on the screen, with one pixel value. */
+void raster_row(const raster_t *raster, int32_t y, uint16_t pixel);
 
 /* First pixel whose centre is at or right of (below) a coordinate. */
 static inline int32_t raster_pixel(int32_t q4)
@@ -68,8 +83,8 @@ static inline raster_look_t raster_look(const raster_t *raster, const yb_spot_t 
     return right - left > RASTER_LEVEL || y1 - y0 > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
 }
 
-/* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
- * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
+/* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, or as
+ * the cut says, where it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
  * edge: pixels along the common edge of two triangles are drawn once, none is left out.
  */
 void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,

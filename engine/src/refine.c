@@ -55,7 +55,7 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
     yb_edge_t asked = edge;
     for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
         asked += REFINE_ONCE;
-    if (asked == edge || (fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
+    if (asked == edge || (frame->even_water && fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
                           drowned(frame, a, b, refine_class(edge))))
         return edge;
     if (!seen || change << 2 > near) /* or there are no spots */
@@ -436,6 +436,19 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
     frame->stats.drawn += clip_draw(frame, raster, p, shade_ground(frame, p)) ? 1 : 0;
 }
 
+/* Draws a triangle that a line crosses, of the shore or of a contour; false: none does. */
+static bool draw_lines(const yb_frame_t *frame, const raster_t *raster,
+                       const yb_point_t *const p[3], raster_look_t look, uint16_t pixel)
+{
+    raster_cut_t cut;
+    if (!shade_cut(frame, p, pixel, &cut))
+        return false;
+    raster_t cutting = *raster;
+    cutting.cut = &cut;
+    raster_fill(&cutting, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
+    return true;
+}
+
 static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                         const yb_point_t *const p[3])
 {
@@ -450,7 +463,10 @@ static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const rast
         return;
     }
     frame->stats.drawn++;
-    raster_fill(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, shade_ground(frame, p));
+    uint16_t pixel = shade_ground(frame, p);
+    if (frame->lines && draw_lines(frame, raster, p, look, pixel))
+        return;
+    raster_fill(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
 }
 
 /* What becomes of a triangle with an edge that may be split. */

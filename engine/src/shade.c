@@ -2,26 +2,15 @@
 
 #include <yamabiko/rom.h>
 
+#include "colour.h"
 #include "fix.h"
 #include "relief.h"
+#include "shadow.h"
 
 enum {
-    SHADES = 16, /* of which the ground uses 2 .. 15: 14 shades */
-    DARKEST = 2, /* what the sun does not reach: light of the sky */
-    HUES = 16,
-    WALL_DIM = 3 /* shades by which a wall is darker than ground would be */
+    WALL_DIM = 3, /* shades by which a wall is darker than ground would be */
+    WATER_DIM = 4 /* and water, where there is no colour to tell it by */
 };
-
-/* Hues of the ground from the lowest to the highest: woods, meadows, bare soil, rock, snow. */
-static const uint8_t ground_hue[HUES][3] YB_ROM = {
-    {62, 112, 66},   {81, 125, 70},   {99, 139, 74},   {118, 152, 78},
-    {137, 157, 87},  {157, 163, 95},  {176, 168, 104}, {169, 152, 97},
-    {163, 136, 89},  {156, 120, 82},  {151, 123, 95},  {147, 127, 109},
-    {142, 130, 122}, {169, 162, 157}, {196, 194, 192}, {248, 248, 252},
-};
-static const uint8_t water_hue[3] YB_ROM = {72, 116, 168};
-static const uint8_t wall_hue[3] YB_ROM = {150, 132, 112};
-static const uint8_t sky[3] YB_ROM = {206, 222, 236};
 
 /* round(2^31 / sqrt(i 2^26)) - 1 for i from 16 to 64 */
 static const uint16_t root_table[49] YB_ROM = {
@@ -29,34 +18,6 @@ static const uint16_t root_table[49] YB_ROM = {
     48678, 47860, 47081, 46340, 45632, 44956, 44309, 43690, 43095, 42524, 41976, 41448, 40939,
     40449, 39976, 39519, 39077, 38650, 38237, 37836, 37448, 37072, 36707, 36352, 36007, 35672,
     35346, 35029, 34721, 34420, 34127, 33842, 33563, 33291, 33026, 32767};
-
-void shade_begin(yb_frame_t *frame)
-{
-    int32_t relief = fix_max(frame->map->high_q8 - frame->map->low_q8, 1);
-    frame->tone_q16 = (int32_t)(((uint32_t)HUES << 16) / (uint32_t)relief);
-}
-
-static uint16_t rgb565(uint32_t red, uint32_t green, uint32_t blue)
-{
-    return (uint16_t)((red >> 3) << 11 | (green >> 2) << 5 | blue >> 3);
-}
-
-/* A hue at a shade. On a grey screen the shade alone is the picture. */
-static uint16_t pixel_of(const yb_frame_t *frame, const uint8_t hue[3], uint32_t shade)
-{
-    if (frame->screen.format == YB_GREY4)
-        return (uint16_t)shade;
-    uint32_t light = shade + 1;
-    return rgb565(yb_rom_u8(&hue[0]) * light >> 4, yb_rom_u8(&hue[1]) * light >> 4,
-                  yb_rom_u8(&hue[2]) * light >> 4);
-}
-
-uint16_t shade_background(const yb_frame_t *frame)
-{
-    return frame->screen.format == YB_GREY4
-               ? 0
-               : rgb565(yb_rom_u8(&sky[0]), yb_rom_u8(&sky[1]), yb_rom_u8(&sky[2]));
-}
 
 /* 2^31 / sqrt(a) for 2^30 <= a < 2^32, within a thousandth: above 2^15, at most 2^16. */
 static uint32_t reciprocal_root(uint32_t a)
@@ -133,22 +94,116 @@ static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
     return lambert(frame, y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2);
 }
 
+/* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
+ * does not hide the relief.
+ */
+static int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t shade)
+{
+    const yb_shadow_t *shadow = frame->view.shadow;
+    if (shadow == NULL || shade <= DARKEST)
+        return shade;
+    /* A third: 21845 / 2^16; a sum of three has 18 bits. */
+    uint32_t x = (p[0]->place & 0xffff) + (p[1]->place & 0xffff) + (p[2]->place & 0xffff);
+    uint32_t y = (p[0]->place >> 16) + (p[1]->place >> 16) + (p[2]->place >> 16);
+    int32_t light =
+        shadow_light(shadow, (int32_t)((x >> 2) * 21845 >> 14), (int32_t)((y >> 2) * 21845 >> 14));
+    return DARKEST + (((shade - DARKEST) * (64 + 3 * light) + 128) >> 8);
+}
+
+/* 1/depth of the nearest corner: one that is not on the screen has 0. */
+static int32_t nearest_of(const yb_point_t *const p[3])
+{
+    return fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
+}
+
+static uint16_t water_pixel(const yb_frame_t *frame, int32_t shade, int32_t near)
+{
+    if (frame->screen.format != YB_RGB565)
+        shade = fix_max(shade - WATER_DIM, 1);
+    return colour_pixel(frame, HUE_WATER, shade, near);
+}
+
+/* The hue of ground at this height. */
+static int hue_of(const yb_frame_t *frame, int32_t z_q8)
+{
+    int32_t low = frame->map->low_q8;
+    int32_t above = fix_clamp(z_q8 - low, 0, frame->map->high_q8 - low);
+    return (int)fix_min((int32_t)(((uint32_t)above * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
+}
+
 uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
-    uint32_t shade = (uint32_t)shade_of(frame, corner);
-    if (frame->screen.format == YB_GREY4)
-        return (uint16_t)shade;
+    int32_t shade = shadowed(frame, corner, shade_of(frame, corner));
+    int32_t near = nearest_of(corner);
     int32_t water = frame->view.water_q8;
     if (corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water)
-        return pixel_of(frame, water_hue, shade);
+        return water_pixel(frame, shade, near);
     /* A third: 5461 / 2^14. */
-    int32_t low = frame->map->low_q8;
-    int32_t middle =
-        (((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10) - low;
-    middle = fix_clamp(middle, 0, frame->map->high_q8 - low);
-    int32_t hue =
-        fix_min((int32_t)(((uint32_t)middle * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
-    return pixel_of(frame, ground_hue[hue], shade);
+    int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
+    return colour_pixel(frame, hue_of(frame, middle), shade, near);
+}
+
+/* --- Lines ------------------------------------------------------------------------------------ */
+
+/* Heights of a triangle as values of a cut, from `zero` on. False: too high for that. */
+static bool cut_values(const yb_point_t *const p[3], int32_t zero, raster_cut_t *cut)
+{
+    for (int i = 0; i < 3; i++) {
+        int32_t value = p[i]->z_q8 - zero;
+        if (value < 0 || value > 65535)
+            return false;
+        cut->value[i] = value;
+    }
+    return true;
+}
+
+/* What is darker on light ground and lighter on dark; a colour of its own where there are any. */
+static uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
+{
+    const int32_t contrast = frame->screen.format == YB_MONO ? SHADES : SHADES / 3;
+    if (frame->screen.format != YB_RGB565)
+        shade = shade > SHADES / 3 ? fix_max(shade - contrast, 0)
+                                   : fix_min(shade + contrast, SHADES - 1);
+    return colour_pixel(frame, hue, shade, near);
+}
+
+bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t pixel,
+               raster_cut_t *cut)
+{
+    const yb_view_t *view = &frame->view;
+    int32_t low = fix_min(p[0]->z_q8, fix_min(p[1]->z_q8, p[2]->z_q8));
+    int32_t high = fix_max(p[0]->z_q8, fix_max(p[1]->z_q8, p[2]->z_q8));
+    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. */
+    int32_t margin = ((high - low) >> 2) + 1;
+    low -= margin;
+    high += margin;
+    int32_t near = nearest_of(p);
+    cut->below = cut->above = pixel;
+    if (low < view->water_q8) {
+        if (high <= view->water_q8)
+            return false;
+        const int32_t flat = shadowed(frame, p, lambert(frame, 0, 0, 1));
+        cut->interval = 0;
+        cut->zero = (int32_t)1 << 15;
+        cut->below = water_pixel(frame, flat, near);
+        cut->line = line_pixel(frame, HUE_SHORE, SHADES - 1, near);
+        return cut_values(p, view->water_q8 - cut->zero, cut);
+    }
+    if (frame->contour_inverse == 0)
+        return false;
+    /* The line below: 2^21 / 2^4 times 2^20 / YB_LEAST_CONTOUR_Q8 is below 2^32, and the quotient
+     * is at most 4 too small. */
+    uint32_t above = (uint32_t)(low - frame->contour_low);
+    uint32_t interval = (uint32_t)view->contour_q8;
+    uint32_t line = ((above >> 4) * frame->contour_inverse >> 16) * interval;
+    while (above - line >= interval)
+        line += interval;
+    if ((uint32_t)(high - frame->contour_low) < line + interval)
+        return false;
+    cut->interval = (int32_t)interval;
+    cut->zero = 0;
+    cut->line = line_pixel(frame, HUE_LINE, shade_of(frame, p), near);
+    return cut_values(p, frame->contour_low + (int32_t)line, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
@@ -157,7 +212,9 @@ uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
     int32_t shade = fix_max(lambert(frame, dy, -dx, 0) - WALL_DIM, DARKEST);
+    int32_t near = fix_max(a->spot.near, b->spot.near);
     int32_t water = frame->view.water_q8;
-    bool flooded = a->z_q8 <= water && b->z_q8 <= water;
-    return pixel_of(frame, flooded ? water_hue : wall_hue, (uint32_t)shade);
+    if (a->z_q8 <= water && b->z_q8 <= water)
+        return water_pixel(frame, shade, near);
+    return colour_pixel(frame, HUE_WALL, shade, near);
 }

@@ -2,6 +2,7 @@
 #include "fix.h"
 #include "relief.h"
 #include "split.h"
+#include "surface.h"
 
 const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
     {{SPLIT_END}},
@@ -20,13 +21,6 @@ const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
 enum {
     LEVELS = 34
 };
-
-typedef struct {
-    const yb_vertex_t *corner[3];
-    yb_vertex_t middle[3];
-    uint8_t pattern;
-    uint8_t child;
-} surface_level_t;
 
 /* Which edges are longer than `longest` and can be split; their midpoints. */
 static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[3], int32_t longest,
@@ -55,15 +49,16 @@ static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3]
     }
 }
 
-void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
-                   yb_triangle_fn fn, void *context)
+void surface_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
+                    surface_level_t *levels, int count, yb_triangle_fn fn, void *context)
 {
-    surface_level_t levels[LEVELS];
     surface_level_t *level = levels;
     for (int i = 0; i < 3; i++)
         level->corner[i] = &map->vertex[map->triangle[triangle][i]];
     for (;;) {
-        level->pattern = split_edges(map, level->corner, longest_q8, level->middle);
+        level->pattern = 0;
+        if (level != &levels[count - 1])
+            level->pattern = split_edges(map, level->corner, longest_q8, level->middle);
         level->child = 0;
         if (level->pattern == 0)
             fn(context, level->corner[0], level->corner[1], level->corner[2]);
@@ -78,6 +73,13 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
         pick(level->corner, level->middle, child, level[1].corner);
         level++;
     }
+}
+
+void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest_q8,
+                   yb_triangle_fn fn, void *context)
+{
+    surface_level_t levels[LEVELS];
+    surface_refine(map, triangle, longest_q8, levels, LEVELS, fn, context);
 }
 
 /* How near a place is to each corner: twice the signed area, below 2^33, that it makes with the two

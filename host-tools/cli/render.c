@@ -156,7 +156,8 @@ static bool make_frame(const request_t *request, const yb_map_t *map, const yb_v
                        const char *path, json_t **json, yb_error_t *error)
 {
     yb_still_t still;
-    if (!yb_still_draw(&still, map, view, &request->view.screen, request->view.band_rows))
+    if (!yb_still_draw(&still, map, view, &request->view.screen, request->view.band_rows,
+                       (uint16_t)request->view.shadows))
         return yb_error_set(error, "not enough memory to draw %s", path);
     const bool good = write_picture(&still, path, request->force, error);
     if (good && request->json)

@@ -24,9 +24,17 @@ static void spread_rgb565(uint8_t *sample, unsigned pixel)
     sample[2] = (uint8_t)(blue << 3 | blue >> 2);
 }
 
+/* A pixel of a screen without colours, 0 to 255. */
+static uint8_t grey_at(const yb_screen_t *screen, const uint8_t *row, size_t x)
+{
+    if (screen->format == YB_MONO)
+        return (row[x / 8] >> (7 - x % 8) & 1) != 0 ? 255 : 0;
+    return (uint8_t)((x % 2 == 0 ? row[x / 2] >> 4 : row[x / 2] & 15) * 17);
+}
+
 bool yb_picture_from_frame(yb_picture_t *picture, const yb_screen_t *screen, const uint8_t *pixels)
 {
-    const bool grey = screen->format == YB_GREY4;
+    const bool grey = screen->format != YB_RGB565;
     if (!yb_picture_init(picture, screen->width, screen->height, grey ? 1 : 3))
         return false;
     const size_t pitch = yb_screen_pitch(screen);
@@ -35,7 +43,7 @@ bool yb_picture_from_frame(yb_picture_t *picture, const yb_screen_t *screen, con
         const uint8_t *row = pixels + y * pitch;
         for (size_t x = 0; x < screen->width; x++, sample += picture->channels) {
             if (grey)
-                *sample = (uint8_t)((x % 2 == 0 ? row[x / 2] >> 4 : row[x / 2] & 15) * 17);
+                *sample = grey_at(screen, row, x);
             else
                 spread_rgb565(sample, (unsigned)row[2 * x] << 8 | row[2 * x + 1]);
         }

@@ -161,7 +161,7 @@ static bool draw_rebuilt(const page_t *page, const yb_view_t *view)
     const yb_screen_t screen = {.width = PANEL_WIDTH, .height = PANEL_HEIGHT, .format = YB_RGB565};
     yb_still_t still;
     yb_picture_t picture = {0};
-    if (!yb_still_draw(&still, &page->file->map, view, &screen, 0))
+    if (!yb_still_draw(&still, &page->file->map, view, &screen, 0, 0))
         return false;
     const bool good = yb_picture_from_frame(&picture, &screen, still.pixels) &&
                       paint(page, &picture, page->left, page->top, 1);

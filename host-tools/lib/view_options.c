@@ -15,7 +15,8 @@ enum {
 
 const char yb_view_options_help[] =
     "  --size WxH          pixels (default 640x480)\n"
-    "  --format FORMAT     rgb565 (default) or grey4: 16 greys, two pixels a byte\n"
+    "  --format FORMAT     rgb565 (default), grey4: 16 greys, two pixels a byte, or mono:\n"
+    "                      dithered, eight pixels a byte\n"
     "  --view NAME         a standard view: orbit-45, orbit-135, orbit-225, orbit-315,\n"
     "                      summit-1, summit-2, walk-1, walk-2\n"
     "  --azimuth DEG       where the camera looks, clockwise from north (default 45);\n"
@@ -28,6 +29,11 @@ const char yb_view_options_help[] =
     "  --fov DEG           width of the picture, 4 to 126 (default 50)\n"
     "  --sun AZ EL         direction of the light (default 315 30)\n"
     "  --water M           water up to M metres above the datum\n"
+    "  --palette NAME      natural (default), hypsometric, mono or night\n"
+    "  --contours M        lines on the relief at every M metres above the datum\n"
+    "  --shadows N         what mountains cast, by a grid of N x N cells: 16, 32, 64, 128\n"
+    "                      or 256\n"
+    "  --haze WIDTHS       air that hides half of what is twice so far, in map widths\n"
     "  --exaggerate F      vertical scale, 0.01 to 8 (default 1)\n"
     "  --walls on|off      the sides of the block (default on)\n"
     "  --edge PIXELS       longest edge of a triangle on the screen (default 6; on a panel\n"
@@ -48,6 +54,9 @@ yb_view_options_t yb_view_options_default(void)
                                .walls = true,
                                .detail = true};
 }
+
+const char *const yb_format_names[] = {"grey4", "rgb565", "mono", NULL};
+const char *const yb_palette_names[] = {"natural", "hypsometric", "mono", "night", NULL};
 
 bool yb_view_options_owns(int option)
 {
@@ -135,7 +144,6 @@ static bool parse_size(yb_screen_t *screen, yb_error_t *error)
 
 static bool take_picture(yb_view_options_t *options, int option, yb_error_t *error)
 {
-    static const char *const formats[] = {"grey4", "rgb565", NULL};
     static const char *const switches[] = {"off", "on", NULL};
     int which = 0;
     long count = 0;
@@ -144,9 +152,22 @@ static bool take_picture(yb_view_options_t *options, int option, yb_error_t *err
     case YB_OPTION_SIZE:
         return parse_size(&options->screen, error);
     case YB_OPTION_FORMAT:
-        good = parse_word("format", formats, &which, error);
-        options->screen.format = which == 0 ? YB_GREY4 : YB_RGB565;
+        good = parse_word("format", yb_format_names, &which, error);
+        options->screen.format = (yb_format_t)which;
         return good;
+    case YB_OPTION_PALETTE:
+        good = parse_word("palette", yb_palette_names, &which, error);
+        options->palette = (yb_palette_t)which;
+        return good;
+    case YB_OPTION_SHADOWS:
+        if (!parse_count("shadows", optarg, 16, 256, &options->shadows, error))
+            return false;
+        return (options->shadows & (options->shadows - 1)) == 0 ||
+               yb_error_set(error, "--shadows: %s is not 16, 32, 64, 128 or 256", optarg);
+    case YB_OPTION_CONTOURS:
+        return parse_number("contours", optarg, 0.01, 1e6, &options->contours_m, error);
+    case YB_OPTION_HAZE:
+        return parse_number("haze", optarg, 0.01, 15, &options->haze, error);
     case YB_OPTION_WALLS:
         good = parse_word("walls", switches, &which, error);
         options->walls = which == 1;
@@ -271,6 +292,24 @@ static bool apply_water(const yb_view_options_t *options, const yb_map_t *map, y
            to_q8(options->water_m - map->base_m, map, &view->water_q8);
 }
 
+static bool apply_contours(const yb_view_options_t *options, const yb_map_t *map, yb_view_t *view,
+                           yb_error_t *error)
+{
+    if (options->contours_m <= 0)
+        return true;
+    const double step_m = yb_map_cell_m(map);
+    const double steps_q8 = options->contours_m / step_m * 256;
+    if (steps_q8 < YB_LEAST_CONTOUR_Q8 || steps_q8 > YB_MOST_CONTOUR_Q8)
+        return yb_error_set(error, "--contours: on this map lines may be %g to %g m apart",
+                            ceil(step_m * YB_LEAST_CONTOUR_Q8 / 256),
+                            floor(step_m * YB_MOST_CONTOUR_Q8 / 256));
+    view->contour_q8 = (int32_t)lround(steps_q8);
+    /* The first multiple above the base: the interval's rounding adds up from there. */
+    const double first_m = ceil(map->base_m / options->contours_m) * options->contours_m;
+    view->contour_at_q8 = (int32_t)lround((first_m - map->base_m) / step_m * 256);
+    return true;
+}
+
 void yb_view_options_panel(yb_view_options_t *options, const yb_screen_t *screen)
 {
     options->screen = *screen;
@@ -294,6 +333,10 @@ bool yb_view_options_apply(const yb_view_options_t *options, yb_map_t *map, yb_v
     if (!apply_water(options, map, view))
         return yb_error_set(error, "--water: %g m is too far from the map's heights",
                             options->water_m);
+    if (!apply_contours(options, map, view, error))
+        return false;
+    view->palette = options->palette;
+    view->haze_q8 = (int32_t)lround(options->haze * fmax(map->east_q8, map->north_q8));
     if (yb_view_options_given(options, YB_OPTION_EYE))
         return apply_eye(options, map, view, error);
     if (yb_view_options_given(options, YB_OPTION_VIEW))

@@ -43,6 +43,10 @@ enum {
     YB_OPTION_FOV,
     YB_OPTION_SUN,
     YB_OPTION_WATER,
+    YB_OPTION_PALETTE,
+    YB_OPTION_CONTOURS,
+    YB_OPTION_HAZE,
+    YB_OPTION_SHADOWS,
     YB_OPTION_EXAGGERATE,
     YB_OPTION_WALLS,
     YB_OPTION_EDGE,
@@ -65,12 +69,20 @@ enum {
     {"fov", required_argument, NULL, YB_OPTION_FOV},                    \
     {"sun", required_argument, NULL, YB_OPTION_SUN},                    \
     {"water", required_argument, NULL, YB_OPTION_WATER},                \
+    {"palette", required_argument, NULL, YB_OPTION_PALETTE},            \
+    {"contours", required_argument, NULL, YB_OPTION_CONTOURS},          \
+    {"haze", required_argument, NULL, YB_OPTION_HAZE},                  \
+    {"shadows", required_argument, NULL, YB_OPTION_SHADOWS},            \
     {"exaggerate", required_argument, NULL, YB_OPTION_EXAGGERATE},      \
     {"walls", required_argument, NULL, YB_OPTION_WALLS},                \
     {"edge", required_argument, NULL, YB_OPTION_EDGE},                  \
     {"max-leaves", required_argument, NULL, YB_OPTION_MAX_LEAVES},      \
     {"no-detail", no_argument, NULL, YB_OPTION_NO_DETAIL}
 /* clang-format on */
+
+/* Of every yb_format_t and yb_palette_t; each ends with NULL. */
+extern const char *const yb_format_names[];
+extern const char *const yb_palette_names[];
 
 /* The lines of --help that describe them. */
 extern const char yb_view_options_help[];
@@ -86,6 +98,10 @@ typedef struct {
     double fov_deg;
     double sun_deg[2]; /* azimuth, elevation */
     double water_m;
+    yb_palette_t palette;
+    double contours_m; /* 0: none */
+    double haze;       /* map widths; 0: none */
+    long shadows;      /* cells along a side of the grid; 0: none */
     double exaggerate;
     double edge_px; /* 0: as yb_view_init */
     long max_leaves;

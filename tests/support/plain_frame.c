@@ -4,6 +4,7 @@
 
 #include "camera.h"
 #include "clip.h"
+#include "colour.h"
 #include "raster.h"
 #include "refine.h"
 #include "shade.h"
@@ -73,14 +74,21 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
     raster_look_t look = raster_look(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
     if (look == RASTER_BEYOND)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
-    else if (look != RASTER_NOTHING)
-        raster_fill(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
+    else if (look != RASTER_NOTHING) {
+        raster_cut_t cut;
+        raster_t raster = drawing->raster;
+        if (drawing->frame->lines && shade_cut(drawing->frame, p, pixel, &cut))
+            raster.cut = &cut;
+        raster_fill(&raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
+    }
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
-    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height}};
-    raster_clear(&drawing.raster, shade_background(frame));
+    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL}};
+    raster_clear(&drawing.raster);
+    for (int32_t y = 0; y < frame->screen.height; y++)
+        raster_row(&drawing.raster, y, colour_sky(frame, y));
     (void)plain_leaves(frame, draw_leaf, &drawing);
     if (frame->view.walls)
         walls_draw(frame, NULL, &drawing.raster);

@@ -348,6 +348,32 @@ uint16_t yb_certified_error_m(uint8_t certified_error);
 /* A water level below every map. */
 #define YB_NO_WATER INT32_MIN
 
+/* Intervals of contour lines beyond these are cut: a quarter of a step, 256 steps. */
+#define YB_LEAST_CONTOUR_Q8 64
+#define YB_MOST_CONTOUR_Q8 65535
+
+/* Where the sun reaches the ground, or the water: a square grid of so many cells a side, 16, 32, 64
+ * (the standard), 128 or 256, that covers 256 x 256 steps from the map's south-west corner. The
+ * caller gives the memory; side 64 takes 512 bytes.
+ */
+typedef struct {
+    uint16_t side;
+    uint8_t *lit; /* YB_SHADOW_BYTES(side): a bit a cell, rows from the south, the western cell in
+                   * the lowest bit */
+} yb_shadow_t;
+#define YB_SHADOW_BYTES(side) ((size_t)(side) * (side) / 8)
+/* Working memory of yb_shadow_cast, in bytes; what lies there may be a yb_load_t at other times. */
+#define YB_SHADOW_WORK(side) ((size_t)(side) * (side))
+
+/* Colours of a screen that has them: 16 hues of the ground by height, each in 14 shades. */
+typedef enum {
+    YB_PALETTE_NATURAL,     /* woods, meadows, soil, rock, snow */
+    YB_PALETTE_HYPSOMETRIC, /* an atlas: green, yellow, brown, white */
+    YB_PALETTE_MONO,        /* one ink */
+    YB_PALETTE_NIGHT        /* dim and blue */
+} yb_palette_t;
+#define YB_PALETTES 4
+
 /* How a map is looked at. Lengths are in 1/256 step, heights above the base *after* exaggeration
  * for eye and look, before it for water. Any values give a correct frame: positions are clamped to
  * ±4096 steps, the zoom to 1024 or more (127 degrees), exaggeration to 8.
@@ -363,12 +389,18 @@ typedef struct {
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool walls;             /* draw the block's sides, down to its base */
     int32_t water_q8;       /* water level, or YB_NO_WATER */
+    const yb_shadow_t *shadow; /* cast by yb_shadow_cast, or NULL: nothing casts shadows */
+    int32_t contour_q8;     /* interval of the lines drawn on the relief; 0: none */
+    int32_t contour_at_q8;  /* the height of one of them */
+    yb_palette_t palette;
+    int32_t haze_q8;        /* distance from the eye at which haze begins, twice as far it is half
+                             * of what is seen; 0: the air is clear */
     uint32_t max_leaves;    /* at most so many leaves of the ground in a frame, or as many as the
                              * mesh has triangles; 0: no bound */
 } yb_view_t;
 
 /* The standard: 50 degrees across, true scale, edges up to a sixteenth of the screen's width, sun
- * in the north-west 30 degrees high, walls, no water, no bound; eye and look as by yb_view_orbit
+ * in the north-west 30 degrees high, walls, no water, no shadows, no lines, clear air, natural colours, no bound; eye and look as by yb_view_orbit
  * south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
@@ -383,6 +415,13 @@ void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
 /* Light from an azimuth (clockwise from north) and an elevation above the horizon. */
 void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 
+/* Casts the shadows of a map as a view's sun, vertical scale and water make them: once, for all
+ * frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free afterwards.
+ * A point is in shadow if the surface, refined to three cells, hides the sun; frames blend from cell
+ * to cell. Cost: see scripts/bench instructions.
+ */
+void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work);
+
 /* Sine and cosine of a binary angle, 14 fractional bits, within 1/8192 of the truth. */
 int16_t yb_sin_q14(uint16_t angle_bam);
 int16_t yb_cos_q14(uint16_t angle_bam);
@@ -391,18 +430,22 @@ int16_t yb_cos_q14(uint16_t angle_bam);
 
 typedef enum {
     YB_GREY4, /* 16 greys, two pixels a byte, the left one in the high nibble */
-    YB_RGB565 /* 16 bits, high byte first, as most panels take them */
+    YB_RGB565, /* 16 bits, high byte first, as most panels take them */
+    YB_MONO    /* lit or not, eight pixels a byte, the leftmost in the highest bit: shades by
+                * ordered dithering, four by four */
 } yb_format_t;
 
 typedef struct {
-    uint16_t width, height; /* pixels; width even for YB_GREY4; at most YB_MAX_SIDE */
+    uint16_t width, height; /* pixels, at most YB_MAX_SIDE; width even for YB_GREY4 */
     yb_format_t format;
 } yb_screen_t;
 
 /* Bytes of one row of pixels. */
 static inline size_t yb_screen_pitch(const yb_screen_t *screen)
 {
-    return screen->format == YB_GREY4 ? (size_t)screen->width / 2 : (size_t)screen->width * 2;
+    size_t width = screen->width;
+    return screen->format == YB_GREY4 ? width / 2 : screen->format == YB_MONO ? (width + 7) / 8
+                                                                              : width * 2;
 }
 
 /* Some rows of the screen, and where to draw them. */
@@ -484,7 +527,12 @@ typedef struct {
     int32_t focal_q4;    /* pixels */
     uint32_t longest;    /* an edge is split while length * 1/depth is above it */
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
-    int32_t tone_q16;                             /* hues per height unit */
+    int32_t tone_q16;               /* hues per height unit */
+    int32_t haze_near, haze_q16;    /* 1/depth where haze begins; 256 over that */
+    bool even_water;                /* no shadows or haze on it: it need not be split */
+    bool lines;                     /* there may be any on the ground */
+    int32_t contour_low;            /* a contour line's height below all of them, … */
+    uint32_t contour_inverse;       /* … and 2^20 over their interval */
     uint8_t row_shift;              /* rows are binned by so many bits: at most 16 bins */
     uint8_t rows[YB_MAX_TRIANGLES]; /* of a base triangle: first and last bin, a nibble each */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */

@@ -93,7 +93,7 @@ static void bands_make_the_same_picture(void **state)
     yb_view_init(&view, &file->map);
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         yb_still_t still;
-        assert_true(yb_still_draw(&still, &file->map, &view, &screen, rows[i]));
+        assert_true(yb_still_draw(&still, &file->map, &view, &screen, rows[i], 0));
         if (i == 0)
             hash = yb_still_hash(&still);
         assert_int_equal(yb_still_hash(&still), hash);
@@ -114,7 +114,7 @@ static void json_has_every_field(void **state)
     yb_view_t view;
     yb_still_t still;
     yb_view_init(&view, &file->map);
-    assert_true(yb_still_draw(&still, &file->map, &view, &screen, 0));
+    assert_true(yb_still_draw(&still, &file->map, &view, &screen, 0, 0));
     json_t *json = yb_still_json(&still);
     assert_non_null(json);
     json_t *fields = json_object_get(json, "view");
@@ -154,7 +154,7 @@ static void draw_both(const yb_map_t *map, uint16_t azimuth_bam, uint32_t column
     yb_mesh_t mesh;
     yb_view_init(&view, map);
     yb_view_orbit(&view, map, azimuth_bam, YB_DEGREES(5), 384);
-    assert_true(yb_still_draw(&still, map, &view, &screen, 0));
+    assert_true(yb_still_draw(&still, map, &view, &screen, 0, 0));
     assert_true(yb_picture_from_frame(&picture, &screen, still.pixels));
     column[0] = peak_column(&picture);
     assert_true(yb_mesh_from_map(&mesh, map, 1024));

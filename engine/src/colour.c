@@ -1,0 +1,108 @@
+#include "colour.h"
+
+#include <yamabiko/rom.h>
+
+#include "camera.h"
+#include "fix.h"
+
+/* clang-format off */
+static const uint8_t hues[YB_PALETTES][ALL_HUES][3] YB_ROM = {
+    [YB_PALETTE_NATURAL] = { /* woods, meadows, bare soil, rock, snow */
+        {62, 112, 66},   {81, 125, 70},   {99, 139, 74},   {118, 152, 78},
+        {137, 157, 87},  {157, 163, 95},  {176, 168, 104}, {169, 152, 97},
+        {163, 136, 89},  {156, 120, 82},  {151, 123, 95},  {147, 127, 109},
+        {142, 130, 122}, {169, 162, 157}, {196, 194, 192}, {248, 248, 252},
+        {72, 116, 168},  {150, 132, 112}, {92, 58, 34},    {224, 232, 228},
+        {206, 222, 236}, {92, 148, 212},
+    },
+    [YB_PALETTE_HYPSOMETRIC] = { /* the tints of an atlas: green, yellow, brown, white */
+        {36, 124, 74},   {70, 146, 82},   {108, 168, 92},  {146, 188, 104},
+        {182, 206, 120}, {212, 220, 138}, {236, 230, 152}, {240, 218, 134},
+        {236, 200, 112}, {226, 178, 92},  {212, 154, 76},  {194, 130, 64},
+        {174, 108, 60},  {166, 118, 92},  {196, 168, 152}, {244, 240, 238},
+        {120, 176, 216}, {172, 160, 146}, {110, 66, 40},   {48, 92, 148},
+        {240, 244, 248}, {176, 206, 236},
+    },
+    [YB_PALETTE_MONO] = { /* one ink: light alone shapes the relief */
+        {212, 210, 204}, {214, 212, 206}, {216, 214, 208}, {218, 216, 210},
+        {220, 218, 212}, {222, 220, 214}, {224, 222, 216}, {226, 224, 218},
+        {228, 226, 220}, {230, 228, 222}, {232, 230, 224}, {234, 232, 226},
+        {236, 234, 228}, {238, 236, 230}, {240, 238, 232}, {244, 242, 236},
+        {150, 152, 154}, {168, 166, 160}, {60, 58, 54},    {28, 28, 28},
+        {250, 249, 246}, {226, 226, 224},
+    },
+    [YB_PALETTE_NIGHT] = { /* moonlight, for eyes that must stay used to the dark */
+        {40, 58, 74},    {44, 64, 82},    {48, 70, 90},    {54, 76, 98},
+        {60, 82, 106},   {66, 88, 114},   {72, 94, 120},   {80, 100, 128},
+        {88, 108, 136},  {96, 116, 144},  {106, 124, 150}, {116, 132, 156},
+        {126, 140, 164}, {140, 152, 174}, {158, 168, 186}, {188, 196, 210},
+        {22, 38, 78},    {56, 60, 72},    {168, 72, 40},   {96, 120, 150},
+        {24, 32, 52},    {4, 6, 16},
+    },
+};
+/* clang-format on */
+
+void colour_begin(yb_frame_t *frame)
+{
+    int32_t relief = fix_max(frame->map->high_q8 - frame->map->low_q8, 1);
+    frame->tone_q16 = (int32_t)(((uint32_t)HUES << 16) / (uint32_t)relief);
+    frame->haze_near = 0;
+    if (frame->view.haze_q8 > 0)
+        frame->haze_near = camera_near(
+            frame, fix_max(frame->view.haze_q8 >> frame->eye_shift, frame->near));
+    frame->haze_q16 = frame->haze_near > 0 ? ((int32_t)256 << 16) / frame->haze_near : 0;
+}
+
+/* How much of what is seen is haze, of 256: 1 - d/D at distance D, where haze begins at d. For
+ * near < haze_near the product is below 2^24.
+ */
+static int32_t haze_of(const yb_frame_t *frame, int32_t near)
+{
+    if (near == 0 || near >= frame->haze_near)
+        return 0;
+    return 256 - (near * frame->haze_q16 >> 16);
+}
+
+static uint16_t rgb565(uint32_t red, uint32_t green, uint32_t blue)
+{
+    return (uint16_t)((red >> 3) << 11 | (green >> 2) << 5 | blue >> 3);
+}
+
+uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
+{
+    int32_t haze = haze_of(frame, near);
+    if (frame->screen.format != YB_RGB565) /* there the sky is black */
+        return (uint16_t)(shade * (256 - haze) >> 8);
+    const uint8_t(*palette)[3] = hues[frame->view.palette];
+    uint32_t mixed[3];
+    for (int i = 0; i < 3; i++) {
+        int32_t light = yb_rom_u8(&palette[hue][i]) * (shade + 1) >> 4;
+        int32_t air = yb_rom_u8(&palette[HUE_HAZE][i]);
+        mixed[i] = (uint32_t)(light + ((air - light) * haze >> 8));
+    }
+    return rgb565(mixed[0], mixed[1], mixed[2]);
+}
+
+uint16_t colour_sky(const yb_frame_t *frame, int32_t row)
+{
+    if (frame->screen.format != YB_RGB565)
+        return 0;
+    /* The sine of about the elevation of the row's middle: its full change takes 60 degrees about
+     * the horizon. Rows lie within 2^15 of the middle, in 1/16 pixel. */
+    int32_t off_q4 = (frame->screen.height - 2 * row - 1) * 8;
+    int32_t rise_q14 = frame->depth_z + off_q4 * frame->up_z / frame->focal_q4;
+    int32_t high = fix_clamp((rise_q14 >> 6) + 128, 0, 256);
+    const uint8_t(*palette)[3] = hues[frame->view.palette];
+    uint32_t mixed[3];
+    for (int i = 0; i < 3; i++) {
+        int32_t air = yb_rom_u8(&palette[HUE_HAZE][i]);
+        mixed[i] = (uint32_t)(air + ((yb_rom_u8(&palette[HUE_SKY][i]) - air) * high >> 8));
+    }
+    /* Rows are rounded up by turns, so that the few bits of a colour make no bands. */
+    uint32_t spare = (uint32_t)((row & 1) * 2 + (row >> 1 & 1)) * 2;
+    for (int i = 0; i < 3; i++) {
+        mixed[i] += i == 1 ? spare >> 1 : spare;
+        mixed[i] = mixed[i] < 255 ? mixed[i] : 255;
+    }
+    return rgb565(mixed[0], mixed[1], mixed[2]);
+}

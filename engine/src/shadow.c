@@ -1,0 +1,187 @@
+#include "shadow.h"
+
+#include <string.h>
+
+#include "surface.h"
+
+enum {
+    MOST_SIDE = 256,
+    LEVELS = 12,    /* of refinement to three cells: what wants more is taken as it is */
+    LONGEST = 3,    /* cells */
+    HEIGHT_BITS = 8 /* of the highest place, above the lowest */
+};
+
+static int32_t lit_at(const yb_shadow_t *shadow, int32_t i, int32_t j)
+{
+    int32_t last = shadow->side - 1;
+    int32_t at = fix_clamp(j, 0, last) * shadow->side + fix_clamp(i, 0, last);
+    return shadow->lit[at >> 3] >> (at & 7) & 1;
+}
+
+int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
+{
+    int shift = shadow_cell_shift(shadow);
+    /* From the middle of a cell to the middle of the next, in eighths. */
+    int32_t x = (x_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3);
+    int32_t y = (y_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3);
+    int32_t i = x >> 3;
+    int32_t j = y >> 3;
+    int32_t east = x & 7;
+    int32_t north = y & 7;
+    int32_t south_row = lit_at(shadow, i, j) * (8 - east) + lit_at(shadow, i + 1, j) * east;
+    int32_t north_row = lit_at(shadow, i, j + 1) * (8 - east) + lit_at(shadow, i + 1, j + 1) * east;
+    return south_row * (8 - north) + north_row * north;
+}
+
+/* --- Heights ---------------------------------------------------------------------------------- */
+
+typedef struct {
+    uint8_t *height; /* of the middles of the cells */
+    int32_t side, shift;
+    int32_t low_q8, scale_shift; /* height = (z - low) >> scale_shift */
+    int32_t water_q8;
+} field_t;
+
+static uint8_t height_of(const field_t *field, int32_t z_q8)
+{
+    z_q8 = fix_max(z_q8, field->water_q8);
+    return (uint8_t)fix_clamp((z_q8 - field->low_q8) >> field->scale_shift, 0, 255);
+}
+
+/* Sets the cells whose middles lie in a triangle, or on its sides: neighbours agree there. Heights
+ * in 1/256 step change by less than 2^20 over a triangle; slopes are in 1/256 of that per step.
+ */
+static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
+                      const yb_vertex_t *c)
+{
+    const field_t *field = context;
+    const yb_vertex_t *p[3] = {a, b, c};
+    int32_t half = (int32_t)1 << (field->shift - 1);
+    int32_t left = fix_min(a->x_q8, fix_min(b->x_q8, c->x_q8));
+    int32_t right = fix_max(a->x_q8, fix_max(b->x_q8, c->x_q8));
+    int32_t bottom = fix_min(a->y_q8, fix_min(b->y_q8, c->y_q8));
+    int32_t top = fix_max(a->y_q8, fix_max(b->y_q8, c->y_q8));
+    int32_t first_i = (left + half - 1) >> field->shift;
+    int32_t first_j = (bottom + half - 1) >> field->shift;
+    int32_t end_i = fix_min((right + half) >> field->shift, field->side);
+    int32_t end_j = fix_min((top + half) >> field->shift, field->side);
+    if (first_i >= end_i || first_j >= end_j)
+        return;
+    /* Places in 1/16 step: 12 bits. Products have 24, and 26 with a sum of two. */
+    int32_t dx[3];
+    int32_t dy[3];
+    for (int k = 0; k < 3; k++) {
+        const yb_vertex_t *q = p[k == 2 ? 0 : k + 1];
+        dx[k] = fix_minus(q->x_q8 >> 4, p[k]->x_q8 >> 4);
+        dy[k] = fix_minus(q->y_q8 >> 4, p[k]->y_q8 >> 4);
+    }
+    int32_t area = dx[0] * dy[1] - dy[0] * dx[1];
+    if (area <= 0)
+        return;
+    for (int32_t j = first_j; j < end_j; j++) {
+        int32_t y = ((j << field->shift) + half) >> 4;
+        for (int32_t i = first_i; i < end_i; i++) {
+            int32_t x = ((i << field->shift) + half) >> 4;
+            int32_t weight[3]; /* of the corner opposite to side k */
+            for (int k = 0; k < 3; k++)
+                weight[k] = dx[k] * (y - (p[k]->y_q8 >> 4)) - dy[k] * (x - (p[k]->x_q8 >> 4));
+            if (weight[0] < 0 || weight[1] < 0 || weight[2] < 0)
+                continue;
+            /* Shares of 2^8: times a height of 20 bits, 2^28. */
+            int32_t of_a = (weight[1] << 4) / ((area >> 4) + 1);
+            int32_t of_b = (weight[2] << 4) / ((area >> 4) + 1);
+            int32_t z = c->z_q8 + (((a->z_q8 - c->z_q8) * of_a + (b->z_q8 - c->z_q8) * of_b) >> 8);
+            field->height[j * field->side + i] = height_of(field, z);
+        }
+    }
+}
+
+static void find_heights(const yb_map_t *map, const yb_view_t *view, const yb_shadow_t *shadow,
+                         field_t *field)
+{
+    field->side = shadow->side;
+    field->shift = shadow_cell_shift(shadow);
+    field->low_q8 = map->low_q8;
+    field->water_q8 = view->water_q8;
+    field->scale_shift = 0;
+    while ((map->high_q8 - map->low_q8) >> field->scale_shift >= 1 << HEIGHT_BITS)
+        field->scale_shift++;
+    memset(field->height, 0, YB_SHADOW_WORK(shadow->side));
+    uint16_t longest = (uint16_t)fix_min((int32_t)LONGEST << field->shift, 65535);
+    surface_level_t levels[LEVELS];
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++)
+        surface_refine(map, t, longest, levels, LEVELS, set_cells, field);
+}
+
+/* --- Shadows ---------------------------------------------------------------------------------- */
+
+/* The sun's way from a row of cells to the next one behind it. Heights: 6 more fractional bits. */
+typedef struct {
+    int32_t aside_q8; /* cells along the row, towards the sun */
+    int32_t drop;
+} ray_t;
+
+enum {
+    FINE = 6,
+    SLACK = 96, /* heights are rounded to 64: level ground casts no shadow on itself */
+    NOTHING = -32768
+};
+
+/* The shadow's height a row behind `top`, at cell j of it. */
+static int32_t shadow_height(const int16_t *top, int32_t side, int32_t j, const ray_t *ray)
+{
+    int32_t at = j + (ray->aside_q8 >> 8);
+    int32_t part = ray->aside_q8 & 255;
+    int32_t here = at >= 0 && at < side ? top[at] : NOTHING;
+    int32_t next = at + 1 >= 0 && at + 1 < side ? top[at + 1] : NOTHING;
+    return here + ((next - here) * part >> 8) - ray->drop;
+}
+
+/* Goes through the rows of cells across the sun's way, beginning with those next to the sun. `top`
+ * is how high ground or shadow reaches, in the row before, and up to cell j in this one.
+ */
+static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, bool along_x,
+                  bool ascending)
+{
+    int16_t top[MOST_SIDE];
+    int32_t side = field->side;
+    for (int32_t j = 0; j < side; j++)
+        top[j] = NOTHING;
+    for (int32_t k = 0; k < side; k++) {
+        int32_t i = ascending ? k : side - 1 - k;
+        for (int32_t m = 0; m < side; m++) {
+            /* A cell of the row before is read before its place is used for this row. */
+            int32_t j = ray->aside_q8 >= 0 ? m : side - 1 - m;
+            int32_t at = along_x ? j * side + i : i * side + j;
+            int32_t ground = (int32_t)field->height[at] << FINE;
+            int32_t shade = shadow_height(top, side, j, ray);
+            if (ground + SLACK >= shade)
+                shadow->lit[at >> 3] = (uint8_t)(shadow->lit[at >> 3] | 1 << (at & 7));
+            top[j] = (int16_t)fix_max(fix_max(ground, shade), NOTHING);
+        }
+    }
+}
+
+void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work)
+{
+    field_t field = {.height = work};
+    const int16_t *sun = view->sun_q14;
+    bool along_x = fix_abs(sun[0]) >= fix_abs(sun[1]);
+    int32_t ahead = along_x ? sun[0] : sun[1];
+    int32_t aside = along_x ? sun[1] : sun[0];
+    int32_t size = fix_abs(ahead);
+    bool high = sun[2] > 0 && sun[2] >> 6 >= size; /* 89 degrees: nothing casts a shadow */
+    memset(shadow->lit, high ? 0xff : 0, YB_SHADOW_BYTES(shadow->side));
+    if (high || sun[2] <= 0)
+        return;
+    find_heights(map, view, shadow, &field);
+    /* A cell is at most 2^12 wide, the sine below 2^6 times the cosine: 2^18, and as much again by
+     * the scale. */
+    int32_t drop_q8 = ((sun[2] << 6) / size << field.shift) >> 6;
+    int32_t scale = fix_max(view->exaggerate_q8, 1);
+    drop_q8 = fix_min(drop_q8, ((int32_t)1 << 23) - 1) * 256 / scale;
+    ray_t ray = {.aside_q8 = aside * 256 / size,
+                 .drop = fix_min(drop_q8, (int32_t)1 << 24) << FINE >> field.scale_shift};
+    ray.drop = fix_min(ray.drop, 32767);
+    sweep(&field, shadow, &ray, along_x, ahead < 0);
+}
