@@ -173,10 +173,6 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t p
     const yb_view_t *view = &frame->view;
     int32_t low = fix_min(p[0]->z_q8, fix_min(p[1]->z_q8, p[2]->z_q8));
     int32_t high = fix_max(p[0]->z_q8, fix_max(p[1]->z_q8, p[2]->z_q8));
-    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. */
-    int32_t margin = ((high - low) >> 2) + 1;
-    low -= margin;
-    high += margin;
     int32_t near = nearest_of(p);
     cut->below = cut->above = pixel;
     if (low < view->water_q8) {
@@ -191,6 +187,10 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t p
     }
     if (frame->contour_inverse == 0)
         return false;
+    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. */
+    int32_t margin = ((high - low) >> 2) + 1;
+    low -= margin;
+    high += margin;
     /* The line below: 2^21 / 2^4 times 2^20 / YB_LEAST_CONTOUR_Q8 is below 2^32, and the quotient
      * is at most 4 too small. */
     uint32_t above = (uint32_t)(low - frame->contour_low);

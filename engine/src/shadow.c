@@ -13,8 +13,8 @@ enum {
 
 static int32_t lit_at(const yb_shadow_t *shadow, int32_t i, int32_t j)
 {
-    int32_t last = shadow->side - 1;
-    int32_t at = fix_clamp(j, 0, last) * shadow->side + fix_clamp(i, 0, last);
+    int32_t at = fix_clamp(j, 0, shadow->rows - 1) * shadow->side +
+                 fix_clamp(i, 0, shadow->columns - 1);
     return shadow->lit[at >> 3] >> (at & 7) & 1;
 }
 
@@ -127,13 +127,13 @@ enum {
     NOTHING = -32768
 };
 
-/* The shadow's height a row behind `top`, at cell j of it. */
-static int32_t shadow_height(const int16_t *top, int32_t side, int32_t j, const ray_t *ray)
+/* The shadow's height a row behind `top`, of so many cells, at cell j of it. */
+static int32_t shadow_height(const int16_t *top, int32_t cells, int32_t j, const ray_t *ray)
 {
     int32_t at = j + (ray->aside_q8 >> 8);
     int32_t part = ray->aside_q8 & 255;
-    int32_t here = at >= 0 && at < side ? top[at] : NOTHING;
-    int32_t next = at + 1 >= 0 && at + 1 < side ? top[at + 1] : NOTHING;
+    int32_t here = at >= 0 && at < cells ? top[at] : NOTHING;
+    int32_t next = at + 1 >= 0 && at + 1 < cells ? top[at + 1] : NOTHING;
     return here + ((next - here) * part >> 8) - ray->drop;
 }
 
@@ -145,21 +145,30 @@ static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, b
 {
     int16_t top[MOST_SIDE];
     int32_t side = field->side;
-    for (int32_t j = 0; j < side; j++)
+    int32_t lines = along_x ? shadow->columns : shadow->rows;
+    int32_t cells = along_x ? shadow->rows : shadow->columns;
+    for (int32_t j = 0; j < cells; j++)
         top[j] = NOTHING;
-    for (int32_t k = 0; k < side; k++) {
-        int32_t i = ascending ? k : side - 1 - k;
-        for (int32_t m = 0; m < side; m++) {
+    for (int32_t k = 0; k < lines; k++) {
+        int32_t i = ascending ? k : lines - 1 - k;
+        for (int32_t m = 0; m < cells; m++) {
             /* A cell of the row before is read before its place is used for this row. */
-            int32_t j = ray->aside_q8 >= 0 ? m : side - 1 - m;
+            int32_t j = ray->aside_q8 >= 0 ? m : cells - 1 - m;
             int32_t at = along_x ? j * side + i : i * side + j;
             int32_t ground = (int32_t)field->height[at] << FINE;
-            int32_t shade = shadow_height(top, side, j, ray);
+            int32_t shade = shadow_height(top, cells, j, ray);
             if (ground + SLACK >= shade)
                 shadow->lit[at >> 3] = (uint8_t)(shadow->lit[at >> 3] | 1 << (at & 7));
             top[j] = (int16_t)fix_max(fix_max(ground, shade), NOTHING);
         }
     }
+}
+
+/* Cells whose middles lie within a side of the map. */
+static uint16_t cells_of(const yb_shadow_t *shadow, uint16_t length_q8)
+{
+    int shift = shadow_cell_shift(shadow);
+    return (uint16_t)(fix_max((length_q8 - ((int32_t)1 << (shift - 1))) >> shift, 0) + 1);
 }
 
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work)
@@ -171,6 +180,8 @@ void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *sha
     int32_t aside = along_x ? sun[1] : sun[0];
     int32_t size = fix_abs(ahead);
     bool high = sun[2] > 0 && sun[2] >> 6 >= size; /* 89 degrees: nothing casts a shadow */
+    shadow->columns = cells_of(shadow, map->east_q8);
+    shadow->rows = cells_of(shadow, map->north_q8);
     memset(shadow->lit, high ? 0xff : 0, YB_SHADOW_BYTES(shadow->side));
     if (high || sun[2] <= 0)
         return;

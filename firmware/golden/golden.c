@@ -47,6 +47,7 @@ enum {
 static yb_map_t map;
 static union {
     yb_load_t load;
+    uint8_t shadow[YB_SHADOW_WORK(GOLDEN_SHADOW_SIDE)];
     struct {
         yb_frame_t frame;
         uint16_t depth[(size_t)MOST_WIDTH * GOLDEN_ROWS];
@@ -136,20 +137,20 @@ static uint64_t hash_mesh(void)
     return hash;
 }
 
-static uint64_t draw(const setting_t *setting, const yb_view_t *view)
+static uint64_t draw(const yb_screen_t *screen, uint16_t rows, const yb_view_t *view)
 {
     yb_frame_t *frame = &work.drawing.frame;
-    yb_band_t band = {.rows = setting->rows,
+    yb_band_t band = {.rows = rows,
                       .depth = work.drawing.depth,
                       .pixels = work.drawing.pixels,
-                      .pitch = yb_screen_pitch(&setting->screen)};
+                      .pitch = yb_screen_pitch(screen)};
     uint64_t hash = FNV_START;
-    yb_frame_begin(frame, &map, view, &setting->screen);
-    for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + band.rows)) {
+    yb_frame_begin(frame, &map, view, screen);
+    for (; band.y < screen->height; band.y = (uint16_t)(band.y + band.rows)) {
         yb_frame_band(frame, &band);
         /* The last band may stick out of the screen. */
-        size_t rows = setting->screen.height - band.y;
-        hash = fnv_bytes(hash, band.pixels, band.pitch * (rows < band.rows ? rows : band.rows));
+        size_t left = screen->height - band.y;
+        hash = fnv_bytes(hash, band.pixels, band.pitch * (left < rows ? left : rows));
     }
     return hash;
 }
@@ -158,11 +159,13 @@ static void draw_views(const char *code)
 {
     for (int which = 0; which < GOLDEN_VIEWS; which++) {
         yb_view_t view;
-        golden_view_set(which, &view, &map);
+        golden_view_set(which, &view, &map, work.shadow);
         for (size_t k = 0; k < SETTINGS; k++) {
+            yb_screen_t screen = settings[k].screen;
+            screen.format = golden_view_format(which, screen.format);
             report_paint_stack();
             yb_mark_begin();
-            uint64_t hash = draw(&settings[k], &view);
+            uint64_t hash = draw(&screen, settings[k].rows, &view);
             yb_mark_end();
             keep_most(&frame_stack[k]);
             say_hash(code, golden_view_name(which), settings[k].name, hash);

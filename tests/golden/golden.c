@@ -21,7 +21,7 @@
 enum {
     WIDTH = 320,
     HEIGHT = 240,
-    MOST_LINES = 400
+    MOST_LINES = 800
 };
 
 static yb_map_t map;
@@ -87,7 +87,9 @@ static void write_picture(const char *name, const char *what)
     (void)fprintf(file, "P6\n%d %d\n255\n", screen->width, screen->height);
     for (size_t i = 0; i < (size_t)screen->width * screen->height; i++) {
         int red, green, blue;
-        if (screen->format == YB_GREY4) {
+        if (screen->format == YB_MONO) {
+            red = green = blue = (pixels[i / 8] >> (7 - i % 8) & 1) * 255; /* widths are 8 n */
+        } else if (screen->format == YB_GREY4) {
             red = green = blue = (i % 2 == 0 ? pixels[i / 2] >> 4 : pixels[i / 2] & 15) * 17;
         } else {
             int pixel = pixels[2 * i] << 8 | pixels[2 * i + 1];
@@ -103,8 +105,9 @@ static void write_picture(const char *name, const char *what)
 
 static uint64_t frame_hash(int which, const yb_screen_t *screen)
 {
+    static uint8_t work[YB_SHADOW_WORK(GOLDEN_SHADOW_SIDE)];
     yb_view_t view;
-    golden_view_set(which, &view, &map);
+    golden_view_set(which, &view, &map, work);
     yb_frame_begin(&frame, &map, &view, screen);
     size_t pitch = yb_screen_pitch(screen);
     yb_band_t band = {0, screen->height, depth, pixels, pitch};
@@ -141,10 +144,11 @@ static bool find_lines(const char *path, lines_t *lines)
     add_line(lines, code, "surface", surface_hash());
     for (int k = 0; k < 2 * GOLDEN_VIEWS; k++) {
         char what[40];
-        const yb_screen_t *screen = &screens[k % 2];
-        (void)snprintf(what, sizeof what, "%s-%dx%d", golden_view_name(k / 2), screen->width,
-                       screen->height);
-        add_line(lines, code, what, frame_hash(k / 2, screen));
+        yb_screen_t screen = screens[k % 2];
+        screen.format = golden_view_format(k / 2, screen.format);
+        (void)snprintf(what, sizeof what, "%s-%dx%d", golden_view_name(k / 2), screen.width,
+                       screen.height);
+        add_line(lines, code, what, frame_hash(k / 2, &screen));
         if (pictures != NULL)
             write_picture(code, what);
     }

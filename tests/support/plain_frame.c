@@ -107,6 +107,32 @@ static void stand(yb_view_t *view, const yb_map_t *map, rng_t *rng, int above)
     view->look_q8[2] = view->eye_q8[2] + rng_range(rng, -6000, 2000);
 }
 
+/* Shadows that nothing casts: any bits. */
+static const yb_shadow_t *random_shadow(rng_t *rng)
+{
+    static uint8_t lit[YB_SHADOW_BYTES(64)];
+    static yb_shadow_t shadow = {.lit = lit};
+    shadow.side = shadow.columns = shadow.rows = (uint16_t)(16 << rng_range(rng, 0, 2));
+    for (size_t i = 0; i < YB_SHADOW_BYTES(shadow.side); i++)
+        lit[i] = (uint8_t)rng_range(rng, 0, 255);
+    return &shadow;
+}
+
+void random_look(yb_view_t *view, rng_t *rng)
+{
+    view->contour_q8 = view->haze_q8 = 0;
+    view->shadow = NULL;
+    view->palette = (yb_palette_t)rng_range(rng, 0, YB_PALETTES - 1);
+    if (rng_one_in(rng, 2)) {
+        view->contour_q8 = rng_range(rng, 0, rng_one_in(rng, 2) ? 2000 : 70000);
+        view->contour_at_q8 = rng_range(rng, -20000, 20000);
+    }
+    if (rng_one_in(rng, 3))
+        view->haze_q8 = rng_range(rng, 1, 100000);
+    if (rng_one_in(rng, 3))
+        view->shadow = random_shadow(rng);
+}
+
 void random_view(yb_view_t *view, const yb_map_t *map, rng_t *rng)
 {
     yb_view_init(view, map);
@@ -183,5 +209,9 @@ void wild_view(yb_view_t *view, rng_t *rng)
     view->edge_q4 = (uint16_t)wild_number(rng);
     view->walls = rng_one_in(rng, 2);
     view->water_q8 = wild_number(rng);
+    random_look(view, rng);
+    view->contour_q8 = wild_number(rng);
+    view->contour_at_q8 = wild_number(rng);
+    view->haze_q8 = wild_number(rng);
     view->max_leaves = (uint32_t)rng_range(rng, 1, 3000);
 }

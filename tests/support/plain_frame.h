@@ -26,6 +26,9 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band);
  */
 void random_view(yb_view_t *view, const yb_map_t *map, rng_t *rng);
 
+/* Colours, lines, haze and shadows for it; these are valid until the next call. */
+void random_look(yb_view_t *view, rng_t *rng);
+
 /* A view that makes none: every field anything its type can hold, or at an extreme. */
 void wild_view(yb_view_t *view, rng_t *rng);
 

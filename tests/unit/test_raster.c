@@ -50,6 +50,8 @@ static uint16_t pixel_at(const page_t *page, int x, int line)
     const uint8_t *row = page->band.pixels + (size_t)line * page->band.pitch;
     if (page->screen.format == YB_RGB565)
         return (uint16_t)(row[2 * x] << 8 | row[2 * x + 1]);
+    if (page->screen.format == YB_MONO)
+        return row[x / 8] >> (7 - x % 8) & 1;
     return x % 2 == 0 ? row[x / 2] >> 4 : row[x / 2] & 15;
 }
 
@@ -369,10 +371,110 @@ static void huge_triangles_fit(void **state)
     }
 }
 
+/* A value that is linear on a triangle, at a pixel's centre, and how it changes from pixel to pixel.
+ */
+typedef struct {
+    double at, along_x, along_y;
+} slope_t;
+
+static slope_t slope_of(const yb_spot_t p[3], const int32_t value[3], int x, int y)
+{
+    const double x1 = p[1].x_q4 - p[0].x_q4;
+    const double y1 = p[1].y_q4 - p[0].y_q4;
+    const double x2 = p[2].x_q4 - p[0].x_q4;
+    const double y2 = p[2].y_q4 - p[0].y_q4;
+    const double d1 = value[1] - value[0];
+    const double d2 = value[2] - value[0];
+    slope_t slope = {value[0], (d1 * y2 - d2 * y1) / (x1 * y2 - y1 * x2) * 16,
+                     (d2 * x1 - d1 * x2) / (x1 * y2 - y1 * x2) * 16};
+    slope.at += slope.along_x * (x + 0.5 - p[0].x_q4 / 16.0);
+    slope.at += slope.along_y * (y + 0.5 - p[0].y_q4 / 16.0);
+    return slope;
+}
+
+static void lines_lie_where_they_should(void **state)
+{
+    (void)state;
+    rng_t rng = {46};
+    int lines = 0;
+    int doubtful = 0;
+    int pixels_seen = 0;
+    for (int round = 0; round < 3000; round++) {
+        yb_spot_t p[3];
+        raster_cut_t cut = {.below = 3, .above = round % 2 == 0 ? 3 : 9, .line = 14};
+        for (int i = 0; i < 3; i++) {
+            p[i].x_q4 = rng_range(&rng, -100, WIDTH * 16 + 100);
+            p[i].y_q4 = rng_range(&rng, -100, HEIGHT * 16 + 100);
+            p[i].near = rng_range(&rng, 100, 60000);
+            cut.value[i] = rng_range(&rng, 20000, 45000);
+        }
+        if (-twice_area(&p[0], &p[1], &p[2]) < 20000)
+            continue;
+        if (round % 2 == 0)
+            cut.interval = rng_range(&rng, 10000, 30000);
+        else
+            cut.zero = rng_range(&rng, 20000, 45000);
+        page_t page;
+        open_page(&page, YB_GREY4, 0, HEIGHT);
+        page.raster.cut = &cut;
+        (void)draw(&page.raster, p, 5);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            if (depth[i] == 0)
+                continue;
+            const slope_t slope = slope_of(p, cut.value, i % WIDTH, i / WIDTH);
+            const double half = fmax(fabs(slope.along_x), fabs(slope.along_y)) / 2;
+            double off = slope.at - cut.zero;
+            if (cut.interval > 0)
+                off = remainder(off, cut.interval);
+            const int pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
+            pixels_seen++;
+            if (cut.interval > 0 && half > cut.interval / 8.0 * 0.9) { /* too dense, or nearly */
+                CHECK(half < cut.interval / 8.0 * 1.1 || pixel == 5, "round %d: too dense", round);
+                continue;
+            }
+            if (fabs(fabs(off) - half) < 4 + half / 50) {
+                doubtful++;
+                continue;
+            }
+            lines += fabs(off) < half;
+            const int should = fabs(off) < half ? cut.line : off < 0 ? cut.below : cut.above;
+            CHECK(pixel == should, "round %d, (%d, %d): %d, not %d", round, i % WIDTH, i / WIDTH,
+                  pixel, should);
+        }
+    }
+    print_message("%d pixels, %d of lines, %d doubtful\n", pixels_seen, lines, doubtful);
+    assert_true(lines > 10000 && doubtful < pixels_seen / 20);
+}
+
+/* The more light, the more pixels: those of a darker shade stay lit. */
+static void shades_become_dots(void **state)
+{
+    (void)state;
+    static const yb_spot_t all[3] = {{-900, -900, 9}, {-900, 3000, 9}, {3000, -900, 9}};
+    uint16_t before[WIDTH * HEIGHT] = {0};
+    for (uint16_t shade = 0; shade < 16; shade++) {
+        page_t page;
+        open_page(&page, YB_MONO, 0, HEIGHT);
+        assert_true(draw(&page.raster, all, shade));
+        int of_sixteen = 0;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const uint16_t pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
+            of_sixteen += i / WIDTH < 4 && i % WIDTH < 4 ? pixel : 0;
+            assert_true(pixel >= before[i]);
+            assert_int_equal(pixel, pixel_at(&page, i % WIDTH % 4, i / WIDTH % 4));
+            before[i] = pixel;
+        }
+        assert_int_equal(of_sixteen, shade + (shade >= 8));
+        check_guards(&page);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_pixel_is_drawn_once),
+        cmocka_unit_test(lines_lie_where_they_should),
+        cmocka_unit_test(shades_become_dots),
         cmocka_unit_test(bands_are_parts_of_the_whole),
         cmocka_unit_test(back_faces_and_flat_ones_draw_nothing),
         cmocka_unit_test(edges_through_centres),

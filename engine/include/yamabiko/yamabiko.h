@@ -358,8 +358,9 @@ uint16_t yb_certified_error_m(uint8_t certified_error);
  */
 typedef struct {
     uint16_t side;
-    uint8_t *lit; /* YB_SHADOW_BYTES(side): a bit a cell, rows from the south, the western cell in
-                   * the lowest bit */
+    uint8_t *lit;           /* YB_SHADOW_BYTES(side): a bit a cell, rows from the south, the western
+                             * cell in the lowest bit */
+    uint16_t columns, rows; /* cells that are on the map: set by yb_shadow_cast */
 } yb_shadow_t;
 #define YB_SHADOW_BYTES(side) ((size_t)(side) * (side) / 8)
 /* Working memory of yb_shadow_cast, in bytes; what lies there may be a yb_load_t at other times. */

@@ -108,7 +108,8 @@ static void json_has_every_field(void **state)
     (void)state;
     static const char *const view_fields[] = {
         "eye_q8",  "look_q8", "azimuth_bam", "zoom_q12", "exaggerate_q8",
-        "edge_q4", "sun_q14", "walls",       "water_q8", "max_leaves"};
+        "edge_q4", "sun_q14", "walls",       "water_q8", "max_leaves",
+        "palette", "haze_q8", "contour_q8",  "contour_at_q8"};
     yb_code_file_t *file = code_hill();
     const yb_screen_t screen = {.width = 64, .height = 32, .format = YB_GREY4};
     yb_view_t view;
@@ -132,13 +133,14 @@ static void json_has_every_field(void **state)
     yb_code_file_free(file);
 }
 
-/* Column of the first pixel from the top that is not sky. */
+/* Column of the first pixel from the top that is not sky, as its row begins with. */
 static uint32_t peak_column(const yb_picture_t *picture)
 {
     for (uint32_t y = 0; y < picture->height; y++) {
         for (uint32_t x = 0; x < picture->width; x++) {
             const size_t at = ((size_t)y * picture->width + x) * picture->channels;
-            if (memcmp(picture->samples + at, picture->samples, picture->channels) != 0)
+            if (memcmp(picture->samples + at, picture->samples + at - x * picture->channels,
+                       picture->channels) != 0)
                 return x;
         }
     }

@@ -138,7 +138,7 @@ static void contradictions_are_refused(void **state)
         "--size 5000x10",
         "--size -1x5",
         "--size 65x32 --format grey4",
-        "--format mono",
+        "--format rgb888",
         "--format",
         "--eye 1 2",
         "--eye 1 2 x",
@@ -165,7 +165,9 @@ static void contradictions_are_refused(void **state)
         "--azimuth north",
         "--shadows 3",
         "--palette x",
-        "--contours 10",
+        "--contours 0",
+        "--shadows 48",
+        "--haze -1",
         "--view orbit-45 --azimuth 3",
         "--eye 1 2 3 --distance 2",
     };
@@ -177,6 +179,34 @@ static void contradictions_are_refused(void **state)
             fail_msg("%s was taken", wrong[i]);
         assert_true(strlen(error.text) > 0);
     }
+}
+
+static void looks(void **state)
+{
+    (void)state;
+    yb_code_file_t *file = code_hill(); /* 30 m a step, base 100 m, 256 steps wide or less */
+    yb_view_t view = view_of("--contours 40 --palette night --haze 0.5", &file->map);
+    assert_int_equal(view.contour_q8, (40 * 256 + 15) / 30);
+    assert_int_equal(view.contour_at_q8, (20 * 256 + 15) / 30); /* 120 m */
+    assert_int_equal(view.palette, YB_PALETTE_NIGHT);
+    assert_in_range(view.haze_q8, file->map.east_q8 / 2, file->map.east_q8 / 2 + 1);
+    view = view_of("", &file->map);
+    assert_int_equal(view.contour_q8, 0);
+    assert_int_equal(view.haze_q8, 0);
+    assert_null(view.shadow);
+    yb_view_options_t options;
+    yb_error_t error = {""};
+    assert_true(parse("--shadows 64 --format mono --size 37x9", &options, &error));
+    assert_int_equal(options.shadows, 64);
+    assert_int_equal(options.screen.format, YB_MONO);
+    /* Lines so close, or so far apart, are refused: a quarter of a step, 256 steps. */
+    static const char *const wrong[] = {"--contours 7", "--contours 7681"};
+    for (int i = 0; i < 2; i++) {
+        assert_true(parse(wrong[i], &options, &error));
+        assert_false(yb_view_options_apply(&options, &file->map, &view, &error));
+        assert_non_null(strstr(error.text, "8 to 7679 m"));
+    }
+    yb_code_file_free(file);
 }
 
 static void far_places_are_refused(void **state)
@@ -202,6 +232,7 @@ int main(void)
         cmocka_unit_test(metres_become_steps),        cmocka_unit_test(angles_are_rounded_once),
         cmocka_unit_test(screen_and_detail),          cmocka_unit_test(panel),
         cmocka_unit_test(contradictions_are_refused), cmocka_unit_test(far_places_are_refused),
+        cmocka_unit_test(looks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
