@@ -40,6 +40,34 @@ void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
     view->azimuth_bam = azimuth_bam;
 }
 
+void yb_view_fly(yb_view_t *view, const yb_map_t *map, const int32_t eye_q8[3],
+                 int32_t clearance_q8, uint16_t azimuth_bam, int16_t tilt_bam)
+{
+    for (int i = 0; i < 3; i++)
+        view->eye_q8[i] = fix_clamp(eye_q8[i], -FAR_Q8, FAR_Q8);
+    int32_t x = view->eye_q8[0];
+    int32_t y = view->eye_q8[1];
+    if (x >= 0 && y >= 0 && x <= map->east_q8 && y <= map->north_q8) {
+        int32_t floor =
+            fix_max(yb_map_height(map, (uint16_t)x, (uint16_t)y), view->water_q8);
+        floor = (int32_t)(((int64_t)floor * view->exaggerate_q8) >> 8);
+        clearance_q8 = fix_clamp(clearance_q8, 0, FAR_Q8);
+        view->eye_q8[2] = fix_max(view->eye_q8[2], fix_min(floor, FAR_Q8) + clearance_q8);
+    }
+    int32_t flat = yb_cos_q14((uint16_t)tilt_bam);
+    view->look_q8[0] = view->eye_q8[0] + ((flat * yb_sin_q14(azimuth_bam)) >> 14);
+    view->look_q8[1] = view->eye_q8[1] + ((flat * yb_cos_q14(azimuth_bam)) >> 14);
+    view->look_q8[2] = view->eye_q8[2] + yb_sin_q14((uint16_t)tilt_bam);
+    view->azimuth_bam = azimuth_bam;
+}
+
+void yb_view_walk(yb_view_t *view, const yb_map_t *map, uint16_t x_q8, uint16_t y_q8,
+                  int32_t height_q8, uint16_t azimuth_bam, int16_t tilt_bam)
+{
+    const int32_t below[3] = {fix_min(x_q8, map->east_q8), fix_min(y_q8, map->north_q8), -FAR_Q8};
+    yb_view_fly(view, map, below, height_q8, azimuth_bam, tilt_bam);
+}
+
 void yb_view_init(yb_view_t *view, const yb_map_t *map)
 {
     *view = (yb_view_t){

@@ -6,8 +6,8 @@
 
 enum {
     MOST_SIDE = 256,
-    LEVELS = 12,    /* of refinement to three cells: what wants more is taken as it is */
-    LONGEST = 3,    /* cells */
+    LEVELS = 12,    /* of refinement to four cells: what wants more is taken as it is */
+    LONGEST = 4,    /* cells */
     HEIGHT_BITS = 8 /* of the highest place, above the lowest */
 };
 
@@ -48,51 +48,81 @@ static uint8_t height_of(const field_t *field, int32_t z_q8)
     return (uint8_t)fix_clamp((z_q8 - field->low_q8) >> field->scale_shift, 0, 255);
 }
 
-/* Sets the cells whose middles lie in a triangle, or on its sides: neighbours agree there. Heights
- * in 1/256 step change by less than 2^20 over a triangle; slopes are in 1/256 of that per step.
+/* Cells from first up to end, along one axis, whose middles lie within three coordinates. */
+typedef struct {
+    int32_t first, end;
+} cells_t;
+
+static cells_t cells_within(const field_t *field, uint16_t a, uint16_t b, uint16_t c)
+{
+    int32_t half = (int32_t)1 << (field->shift - 1);
+    int32_t least = fix_min(a, fix_min(b, c));
+    int32_t most = fix_max(a, fix_max(b, c));
+    return (cells_t){(least + half - 1) >> field->shift,
+                     fix_min((most + half) >> field->shift, field->side)};
+}
+
+/* How near a place is to each corner of a triangle: twice the area that it makes with the opposite
+ * side, and what a cell further east or north adds. Places are in 1/16 step, 12 bits: areas have 25.
  */
+typedef struct {
+    int32_t at[3], east[3], north[3];
+} weights_t;
+
+static void weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int cell_shift,
+                  weights_t *weights)
+{
+    for (int k = 0; k < 3; k++) {
+        const yb_vertex_t *from = p[k == 2 ? 0 : k + 1];
+        const yb_vertex_t *to = p[k == 0 ? 2 : k - 1];
+        int32_t dx = fix_minus(to->x_q8 >> 4, from->x_q8 >> 4);
+        int32_t dy = fix_minus(to->y_q8 >> 4, from->y_q8 >> 4);
+        weights->at[k] = dx * (y - (from->y_q8 >> 4)) - dy * (x - (from->x_q8 >> 4));
+        weights->east[k] = -dy * ((int32_t)1 << cell_shift);
+        weights->north[k] = dx * ((int32_t)1 << cell_shift);
+    }
+}
+
+/* Sets the cells whose middles lie in a triangle, or on its sides: neighbours agree there. */
 static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
                       const yb_vertex_t *c)
 {
     const field_t *field = context;
-    const yb_vertex_t *p[3] = {a, b, c};
-    int32_t half = (int32_t)1 << (field->shift - 1);
-    int32_t left = fix_min(a->x_q8, fix_min(b->x_q8, c->x_q8));
-    int32_t right = fix_max(a->x_q8, fix_max(b->x_q8, c->x_q8));
-    int32_t bottom = fix_min(a->y_q8, fix_min(b->y_q8, c->y_q8));
-    int32_t top = fix_max(a->y_q8, fix_max(b->y_q8, c->y_q8));
-    int32_t first_i = (left + half - 1) >> field->shift;
-    int32_t first_j = (bottom + half - 1) >> field->shift;
-    int32_t end_i = fix_min((right + half) >> field->shift, field->side);
-    int32_t end_j = fix_min((top + half) >> field->shift, field->side);
-    if (first_i >= end_i || first_j >= end_j)
+    const yb_vertex_t *const p[3] = {a, b, c};
+    const cells_t columns = cells_within(field, a->x_q8, b->x_q8, c->x_q8);
+    const cells_t rows = cells_within(field, a->y_q8, b->y_q8, c->y_q8);
+    if (columns.first >= columns.end || rows.first >= rows.end)
         return;
-    /* Places in 1/16 step: 12 bits. Products have 24, and 26 with a sum of two. */
-    int32_t dx[3];
-    int32_t dy[3];
-    for (int k = 0; k < 3; k++) {
-        const yb_vertex_t *q = p[k == 2 ? 0 : k + 1];
-        dx[k] = fix_minus(q->x_q8 >> 4, p[k]->x_q8 >> 4);
-        dy[k] = fix_minus(q->y_q8 >> 4, p[k]->y_q8 >> 4);
-    }
-    int32_t area = dx[0] * dy[1] - dy[0] * dx[1];
+    int32_t half = (int32_t)1 << (field->shift - 1);
+    weights_t row;
+    weigh(p, ((columns.first << field->shift) + half) >> 4,
+          ((rows.first << field->shift) + half) >> 4, field->shift - 4, &row);
+    int32_t area = row.at[0] + row.at[1] + row.at[2];
     if (area <= 0)
         return;
-    for (int32_t j = first_j; j < end_j; j++) {
-        int32_t y = ((j << field->shift) + half) >> 4;
-        for (int32_t i = first_i; i < end_i; i++) {
-            int32_t x = ((i << field->shift) + half) >> 4;
-            int32_t weight[3]; /* of the corner opposite to side k */
-            for (int k = 0; k < 3; k++)
-                weight[k] = dx[k] * (y - (p[k]->y_q8 >> 4)) - dy[k] * (x - (p[k]->x_q8 >> 4));
-            if (weight[0] < 0 || weight[1] < 0 || weight[2] < 0)
-                continue;
-            /* Shares of 2^8: times a height of 20 bits, 2^28. */
-            int32_t of_a = (weight[1] << 4) / ((area >> 4) + 1);
-            int32_t of_b = (weight[2] << 4) / ((area >> 4) + 1);
-            int32_t z = c->z_q8 + (((a->z_q8 - c->z_q8) * of_a + (b->z_q8 - c->z_q8) * of_b) >> 8);
-            field->height[j * field->side + i] = height_of(field, z);
+    /* Shares of 2^8 by one division: a weight of 15 bits times 2^23 / area is below 2^24. */
+    int spare = fix_log2_floor((uint32_t)area) > 14 ? fix_log2_floor((uint32_t)area) - 14 : 0;
+    int32_t inverse = ((int32_t)1 << 23) / (area >> spare);
+    for (int32_t j = rows.first; j < rows.end; j++) {
+        uint8_t *height = &field->height[j * field->side];
+        int32_t to_a = row.at[0];
+        int32_t to_b = row.at[1];
+        int32_t to_c = row.at[2];
+        for (int32_t i = columns.first; i < columns.end; i++) {
+            if ((to_a | to_b | to_c) >= 0) { /* none is negative */
+                /* Heights differ by less than 2^20: 2^28. */
+                int32_t of_a = (to_a >> spare) * inverse >> 15;
+                int32_t of_b = (to_b >> spare) * inverse >> 15;
+                height[i] = height_of(field, c->z_q8 + (((a->z_q8 - c->z_q8) * of_a +
+                                                         (b->z_q8 - c->z_q8) * of_b) >>
+                                                        8));
+            }
+            to_a += row.east[0];
+            to_b += row.east[1];
+            to_c += row.east[2];
         }
+        for (int k = 0; k < 3; k++)
+            row.at[k] += row.north[k];
     }
 }
 

@@ -20,9 +20,16 @@
 #error "BENCH_BAND_BYTES: the board's CMake file gives it"
 #endif
 
+enum {
+    SHADOW_SIDE = 64
+};
+
 static yb_map_t map;
+static uint8_t lit[YB_SHADOW_BYTES(SHADOW_SIDE)];
+static yb_shadow_t shadow = {.side = SHADOW_SIDE, .lit = lit};
 static union {
     yb_load_t load;
+    uint8_t heights[YB_SHADOW_WORK(SHADOW_SIDE)];
     struct {
         yb_frame_t frame;
         uint32_t band[BENCH_BAND_BYTES / 4];
@@ -41,19 +48,46 @@ typedef struct {
     yb_screen_t screen;
     uint16_t rows;
     uint16_t views;
+    void (*look)(yb_view_t *view); /* what is drawn beside the relief, or NULL */
 } setting_t;
 
 #define ORBITS (YB_ORBIT_315 + 1)
 
+static void with_shadows(yb_view_t *view)
+{
+    view->shadow = &shadow;
+}
+
+static void with_lines(yb_view_t *view)
+{
+    view->contour_q8 = (map.high_q8 - map.low_q8) / 10 + YB_LEAST_CONTOUR_Q8;
+}
+
+static void with_haze(yb_view_t *view)
+{
+    view->haze_q8 = map.east_q8;
+}
+
+static void with_all(yb_view_t *view)
+{
+    with_shadows(view);
+    with_lines(view);
+    with_haze(view);
+}
+
 static const setting_t settings[] = {
-    {"128x64-rows8", {128, 64, YB_GREY4}, 8, YB_STANDARD_VIEWS},
-    {"128x64-rows1", {128, 64, YB_GREY4}, 1, ORBITS},
-    {"128x64-rows4", {128, 64, YB_GREY4}, 4, ORBITS},
-    {"128x64-rows16", {128, 64, YB_GREY4}, 16, ORBITS},
-    {"128x64-rows64", {128, 64, YB_GREY4}, 64, ORBITS},
-    {"320x240-rows12", {320, 240, YB_RGB565}, 12, YB_STANDARD_VIEWS},
-    {"320x240-rows16", {320, 240, YB_RGB565}, 16, ORBITS},
-    {"320x240-rows240", {320, 240, YB_RGB565}, 240, ORBITS},
+    {"128x64-rows8", {128, 64, YB_GREY4}, 8, YB_STANDARD_VIEWS, NULL},
+    {"128x64-rows8-shadows", {128, 64, YB_GREY4}, 8, ORBITS, with_shadows},
+    {"128x64-rows8-lines", {128, 64, YB_GREY4}, 8, ORBITS, with_lines},
+    {"128x64-rows8-haze", {128, 64, YB_GREY4}, 8, ORBITS, with_haze},
+    {"128x64-rows8-all", {128, 64, YB_GREY4}, 8, ORBITS, with_all},
+    {"128x64-rows1", {128, 64, YB_GREY4}, 1, ORBITS, NULL},
+    {"128x64-rows4", {128, 64, YB_GREY4}, 4, ORBITS, NULL},
+    {"128x64-rows16", {128, 64, YB_GREY4}, 16, ORBITS, NULL},
+    {"128x64-rows64", {128, 64, YB_GREY4}, 64, ORBITS, NULL},
+    {"320x240-rows12", {320, 240, YB_RGB565}, 12, YB_STANDARD_VIEWS, NULL},
+    {"320x240-rows16", {320, 240, YB_RGB565}, 16, ORBITS, NULL},
+    {"320x240-rows240", {320, 240, YB_RGB565}, 240, ORBITS, NULL},
 };
 
 static uint32_t band_bytes(const setting_t *setting)
@@ -80,8 +114,11 @@ static void measure_frame(const setting_t *setting, int which)
     report_text(" ");
     report_text(yb_standard_view_name(which));
     report_text("\r\n");
+    yb_view_t view = views[which];
+    if (setting->look != NULL)
+        setting->look(&view);
     yb_mark_begin();
-    draw(setting, &views[which]);
+    draw(setting, &view);
     yb_mark_end();
 }
 
@@ -113,6 +150,16 @@ static bool measure_load(void)
     return status == YB_OK;
 }
 
+static void measure_shadows(void)
+{
+    report_text("region shadows\r\n");
+    report_paint_stack();
+    yb_mark_begin();
+    yb_shadow_cast(&map, &views[0], &shadow, work.heights);
+    yb_mark_end();
+    report_line("stack", "shadows", "", report_stack_used());
+}
+
 static void measure_all(void)
 {
     report_line("size", "yb_map_t", "", sizeof(yb_map_t));
@@ -129,6 +176,7 @@ static void measure_all(void)
         yb_view_init(&views[which], &map);
         yb_standard_view_set(&views[which], &map, (yb_standard_view_t)which);
     }
+    measure_shadows();
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
         if (band_bytes(&settings[i]) <= BENCH_BAND_BYTES)
             measure_frames(&settings[i]);

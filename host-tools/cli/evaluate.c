@@ -77,7 +77,8 @@ static void help(void)
         "  --force             overwrite what exists\n"
         "  --help              this text\n"
         "\n"
-        "View of --sheet (--size, --format and --band do not apply):\n",
+        "View of --sheet (--size, --format, --band, --palette, --contours, --shadows and --haze do\n"
+        "not apply):\n",
         stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"
@@ -125,6 +126,12 @@ static int check(request_t *request)
         yb_view_options_given(&request->view, YB_OPTION_FORMAT) ||
         yb_view_options_given(&request->view, YB_OPTION_BAND))
         return cli_usage("--size, --format and --band do not apply: the sheet has its own size");
+    if (yb_view_options_given(&request->view, YB_OPTION_PALETTE) ||
+        yb_view_options_given(&request->view, YB_OPTION_CONTOURS) ||
+        yb_view_options_given(&request->view, YB_OPTION_SHADOWS) ||
+        yb_view_options_given(&request->view, YB_OPTION_HAZE))
+        return cli_usage("--palette, --contours, --shadows and --haze do not apply: both reliefs "
+                         "of the sheet look alike");
     if (!yb_view_options_check(&request->view, &error))
         return cli_usage("%s", error.text);
     return cli_part_check(&request->part);

@@ -122,9 +122,8 @@ static int check(request_t *request)
     if (request->panel != NULL && (yb_view_options_given(view, YB_OPTION_SIZE) ||
                                    yb_view_options_given(view, YB_OPTION_FORMAT)))
         return cli_usage("--panel fixes size and format: leave --size and --format out");
-    if (request->orbit != 0 &&
-        (yb_view_options_given(view, YB_OPTION_EYE) || yb_view_options_given(view, YB_OPTION_VIEW)))
-        return cli_usage("--orbit places the eye: leave --eye and --view out");
+    if (request->orbit != 0 && yb_view_options_placed(view) != NULL)
+        return cli_usage("--orbit places the eye: leave --%s out", yb_view_options_placed(view));
     if (request->orbit != 0 && !yb_numbered_check(request->output, &error))
         return cli_usage("--orbit: %s", error.text);
     if (request->json && request->orbit == 0 && request->output[0] == '-' &&

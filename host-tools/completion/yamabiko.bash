@@ -18,7 +18,9 @@ _yamabiko()
 
     case $before in
     --bus) values=gpiod ;;
-    --format) values='grey4 rgb565' ;;
+    --format) values='grey4 rgb565 mono' ;;
+    --palette) values='natural hypsometric mono night' ;;
+    --shadows) values='16 32 64 128 256' ;;
     --panel) values=ssd0323 ;;
     --profile) values=paper ;;
     --stage) values='contours links triangles' ;;

@@ -26,6 +26,13 @@ const char yb_view_options_help[] =
     "  --eye X Y Z         metres from the map's south-west corner, Z above the datum;\n"
     "                      instead of --view, --elevation and --distance\n"
     "  --look X Y Z        what the eye looks at (default: the map's middle)\n"
+    "  --walk X Y          the eye stands there, metres from the map's south-west corner, and\n"
+    "                      looks along --azimuth and --tilt\n"
+    "  --fly X Y Z         the same from the air, Z above the datum, or higher: it keeps off\n"
+    "                      the ground\n"
+    "  --height M          of the eye above ground or water, for --walk; at least, for --fly\n"
+    "                      (default: half a step of the map)\n"
+    "  --tilt DEG          up, or down if negative, -90 to 90 (default 0)\n"
     "  --fov DEG           width of the picture, 4 to 126 (default 50)\n"
     "  --sun AZ EL         direction of the light (default 315 30)\n"
     "  --water M           water up to M metres above the datum\n"
@@ -206,6 +213,15 @@ bool yb_view_options_take(yb_view_options_t *options, int option, int argc, char
         return parse_place("eye", argc, argv, options->eye_m, error);
     case YB_OPTION_LOOK:
         return parse_place("look", argc, argv, options->look_m, error);
+    case YB_OPTION_FLY:
+        return parse_place("fly", argc, argv, options->eye_m, error);
+    case YB_OPTION_WALK:
+        return parse_numbers("walk", argc, argv, 2, (const double[]){-1e9, -1e9},
+                             (const double[]){1e9, 1e9}, options->eye_m, error);
+    case YB_OPTION_HEIGHT:
+        return parse_number("height", optarg, 0, 1e6, &options->height_m, error);
+    case YB_OPTION_TILT:
+        return parse_number("tilt", optarg, -90, 90, &options->tilt_deg, error);
     case YB_OPTION_AZIMUTH:
         return parse_number("azimuth", optarg, -360, 720, &options->azimuth_deg, error);
     case YB_OPTION_ELEVATION:
@@ -225,21 +241,45 @@ bool yb_view_options_take(yb_view_options_t *options, int option, int argc, char
     }
 }
 
+static const struct {
+    int option;
+    const char *name;
+} places[] = {{YB_OPTION_EYE, "eye"},
+              {YB_OPTION_VIEW, "view"},
+              {YB_OPTION_WALK, "walk"},
+              {YB_OPTION_FLY, "fly"}};
+
+const char *yb_view_options_placed(const yb_view_options_t *options)
+{
+    for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
+        if (yb_view_options_given(options, places[i].option))
+            return places[i].name;
+    }
+    return NULL;
+}
+
 bool yb_view_options_check(const yb_view_options_t *options, yb_error_t *error)
 {
+    const char *placed = yb_view_options_placed(options);
+    for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
+        if (yb_view_options_given(options, places[i].option) && placed != places[i].name)
+            return yb_error_set(error, "--%s and --%s both say where the eye is: give one", placed,
+                                places[i].name);
+    }
     const bool eye = yb_view_options_given(options, YB_OPTION_EYE);
-    const bool view = yb_view_options_given(options, YB_OPTION_VIEW);
-    const bool sphere = yb_view_options_given(options, YB_OPTION_ELEVATION) ||
-                        yb_view_options_given(options, YB_OPTION_DISTANCE);
-    if (eye && view)
-        return yb_error_set(error, "--eye and --view both say where the eye is: give one");
-    if (eye && sphere)
-        return yb_error_set(error, "--elevation and --distance place the eye, and so does --eye");
-    if (view && (sphere || yb_view_options_given(options, YB_OPTION_AZIMUTH)))
-        return yb_error_set(error, "--view is complete: leave --azimuth, --elevation and "
-                                   "--distance out");
+    const bool moves = yb_view_options_given(options, YB_OPTION_WALK) ||
+                       yb_view_options_given(options, YB_OPTION_FLY);
+    if (placed != NULL && (yb_view_options_given(options, YB_OPTION_ELEVATION) ||
+                           yb_view_options_given(options, YB_OPTION_DISTANCE)))
+        return yb_error_set(error, "--elevation and --distance place the eye, and so does --%s",
+                            placed);
+    if (placed != NULL && !eye && !moves && yb_view_options_given(options, YB_OPTION_AZIMUTH))
+        return yb_error_set(error, "--view is complete: leave --azimuth out");
     if (!eye && yb_view_options_given(options, YB_OPTION_LOOK))
         return yb_error_set(error, "--look needs --eye");
+    if (!moves && (yb_view_options_given(options, YB_OPTION_HEIGHT) ||
+                   yb_view_options_given(options, YB_OPTION_TILT)))
+        return yb_error_set(error, "--height and --tilt are for --walk and --fly");
     if (options->screen.format == YB_GREY4 && options->screen.width % 2 != 0)
         return yb_error_set(error, "--format grey4 needs an even width: two pixels share a byte");
     return true;
@@ -282,6 +322,34 @@ static bool apply_eye(const yb_view_options_t *options, const yb_map_t *map, yb_
         !place_to_q8(options->look_m, map, view, view->look_q8))
         return yb_error_set(error, "--look: the place is more than %d steps of %g m from the map",
                             FARTHEST_STEPS, yb_map_cell_m(map));
+    return true;
+}
+
+static bool apply_walk(const yb_view_options_t *options, const yb_map_t *map, yb_view_t *view,
+                       yb_error_t *error)
+{
+    const bool flies = yb_view_options_given(options, YB_OPTION_FLY);
+    const uint16_t azimuth =
+        yb_view_options_given(options, YB_OPTION_AZIMUTH) ? bam(options->azimuth_deg) : 0;
+    const int16_t tilt = (int16_t)bam(options->tilt_deg);
+    int32_t height_q8 = 128;
+    if (yb_view_options_given(options, YB_OPTION_HEIGHT) &&
+        !to_q8(options->height_m * view->exaggerate_q8 / 256, map, &height_q8))
+        return yb_error_set(error, "--height: %g m is too high", options->height_m);
+    int32_t eye_q8[3];
+    if (!place_to_q8(options->eye_m, map, view, eye_q8))
+        return yb_error_set(error, "--%s: the eye is more than %d steps of %g m from the map",
+                            flies ? "fly" : "walk", FARTHEST_STEPS, yb_map_cell_m(map));
+    if (flies) {
+        yb_view_fly(view, map, eye_q8, height_q8, azimuth, tilt);
+        return true;
+    }
+    if (eye_q8[0] < 0 || eye_q8[1] < 0 || eye_q8[0] > map->east_q8 || eye_q8[1] > map->north_q8)
+        return yb_error_set(error, "--walk: %g %g is not on the map, which is %g m by %g m",
+                            options->eye_m[0], options->eye_m[1],
+                            map->east_q8 / 256.0 * yb_map_cell_m(map),
+                            map->north_q8 / 256.0 * yb_map_cell_m(map));
+    yb_view_walk(view, map, (uint16_t)eye_q8[0], (uint16_t)eye_q8[1], height_q8, azimuth, tilt);
     return true;
 }
 
@@ -339,6 +407,9 @@ bool yb_view_options_apply(const yb_view_options_t *options, yb_map_t *map, yb_v
     view->haze_q8 = (int32_t)lround(options->haze * fmax(map->east_q8, map->north_q8));
     if (yb_view_options_given(options, YB_OPTION_EYE))
         return apply_eye(options, map, view, error);
+    if (yb_view_options_given(options, YB_OPTION_WALK) ||
+        yb_view_options_given(options, YB_OPTION_FLY))
+        return apply_walk(options, map, view, error);
     if (yb_view_options_given(options, YB_OPTION_VIEW))
         yb_standard_view_set(view, map, (yb_standard_view_t)options->standard_view);
     else

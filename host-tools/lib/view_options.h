@@ -37,6 +37,10 @@ enum {
     YB_OPTION_VIEW,
     YB_OPTION_EYE,
     YB_OPTION_LOOK,
+    YB_OPTION_WALK,
+    YB_OPTION_FLY,
+    YB_OPTION_HEIGHT,
+    YB_OPTION_TILT,
     YB_OPTION_AZIMUTH,
     YB_OPTION_ELEVATION,
     YB_OPTION_DISTANCE,
@@ -63,6 +67,10 @@ enum {
     {"view", required_argument, NULL, YB_OPTION_VIEW},                  \
     {"eye", required_argument, NULL, YB_OPTION_EYE},                    \
     {"look", required_argument, NULL, YB_OPTION_LOOK},                  \
+    {"walk", required_argument, NULL, YB_OPTION_WALK},                  \
+    {"fly", required_argument, NULL, YB_OPTION_FLY},                    \
+    {"height", required_argument, NULL, YB_OPTION_HEIGHT},              \
+    {"tilt", required_argument, NULL, YB_OPTION_TILT},                  \
     {"azimuth", required_argument, NULL, YB_OPTION_AZIMUTH},            \
     {"elevation", required_argument, NULL, YB_OPTION_ELEVATION},        \
     {"distance", required_argument, NULL, YB_OPTION_DISTANCE},          \
@@ -93,7 +101,9 @@ typedef struct {
     yb_screen_t screen;
     uint16_t band_rows; /* 0: all at once */
     int standard_view;  /* a yb_standard_view_t, if --view was given */
-    double eye_m[3], look_m[3];
+    double eye_m[3], look_m[3]; /* eye: of --walk and --fly too */
+    double height_m;            /* above the ground */
+    double tilt_deg;
     double azimuth_deg, elevation_deg, distance; /* map widths */
     double fov_deg;
     double sun_deg[2]; /* azimuth, elevation */
@@ -116,6 +126,11 @@ yb_view_options_t yb_view_options_default(void);
 
 bool yb_view_options_owns(int option);
 bool yb_view_options_given(const yb_view_options_t *options, int option);
+
+/* The name of the option that was given to say where the eye is, but for --azimuth, --elevation and
+ * --distance, or NULL.
+ */
+const char *yb_view_options_placed(const yb_view_options_t *options);
 
 /* Takes the option that getopt_long has just answered, its value from optarg and, where it has two
  * or three, from argv[optind …]. False with a sentence for a wrong value.

@@ -33,10 +33,12 @@ def frame_regions(run):
     return frames
 
 
-def measure_loads(board, loads):
+def measure_loads(board, loads, shadows):
     target = boards.TARGETS[board]
     yield "load, mean of the maps", target, mean(loads), "instructions"
     yield "load, worst of the maps", target, max(loads), "instructions"
+    yield "shadows, mean of the maps", target, mean(shadows), "instructions"
+    yield "shadows, worst of the maps", target, max(shadows), "instructions"
     crowded = boards.run_map(board, "many-summits", many_summits())
     yield "load, 251 summits", target, crowded.regions["load"], "instructions"
 
@@ -45,7 +47,8 @@ def measure_board(board):
     target = boards.TARGETS[board]
     runs = [boards.run_map(board, name, code) for name, code in boards.maps().items()]
     if board in boards.DEVICES:
-        yield from measure_loads(board, [run.regions["load"] for run in runs])
+        yield from measure_loads(board, [run.regions["load"] for run in runs],
+                                 [run.regions["shadows"] for run in runs])
     frames = [frame_regions(run) for run in runs]
     for setting in frames[0]:
         if board not in boards.DEVICES and setting.startswith("128x64"):
@@ -72,6 +75,13 @@ def ratios(figures):
             if frame(setting, target) and frame(full, target):
                 yield (f"{setting} against {full}", target,
                        f"{frame(setting, target) / frame(full, target):.2f}", "ratio")
+    for look in ("shadows", "lines", "haze", "all"):
+        for target in boards.TARGETS.values():
+            plain, richer = (frame(setting, target)
+                             for setting in ("128x64-rows8", f"128x64-rows8-{look}"))
+            if plain and richer:
+                yield (f"128x64-rows8-{look} against 128x64-rows8", target,
+                       f"{richer / plain:.2f}", "ratio")
     pair = [frame("128x64-rows8", target) for target in ("cortex-m0", "cortex-m3")]
     yield "128x64-rows8 against cortex-m3", "cortex-m0", f"{pair[0] / pair[1]:.2f}", "ratio"
 

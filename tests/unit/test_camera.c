@@ -270,6 +270,59 @@ static void any_view_at_all(void **state)
     }
 }
 
+static void an_eye_keeps_off_the_ground(void **state)
+{
+    (void)state;
+    rng_t rng = {96};
+    int raised = 0;
+    for (int round = 0; round < 4000; round++) {
+        if (round % 100 == 0) {
+            plan_t plan;
+            random_fitting_plan(&plan, &rng);
+            load_plan(&plan);
+        }
+        yb_view_t view;
+        yb_view_init(&view, &map);
+        view.exaggerate_q8 = (uint16_t)rng_range(&rng, 100, 1000);
+        if (rng_one_in(&rng, 2))
+            view.water_q8 = rng_range(&rng, map.low_q8, map.high_q8);
+        const int32_t eye[3] = {rng_range(&rng, -20000, 90000), rng_range(&rng, -20000, 90000),
+                                rng_range(&rng, -90000, 90000)};
+        const int32_t height = rng_range(&rng, 0, 2000);
+        const uint16_t azimuth = (uint16_t)rng_range(&rng, 0, 65535);
+        const int16_t tilt = (int16_t)rng_range(&rng, -16384, 16384);
+        const bool above = eye[0] >= 0 && eye[1] >= 0 && eye[0] <= map.east_q8 &&
+                           eye[1] <= map.north_q8;
+        yb_view_fly(&view, &map, eye, height, azimuth, tilt);
+        assert_int_equal(view.eye_q8[0], eye[0]);
+        assert_int_equal(view.eye_q8[1], eye[1]);
+        /* It looks where it was told to: within 1/8192 of a unit vector each way. */
+        const double turn = azimuth * acos(-1.0) / 32768;
+        const double up = tilt * acos(-1.0) / 32768;
+        const double ahead[3] = {sin(turn) * cos(up), cos(turn) * cos(up), sin(up)};
+        for (int i = 0; i < 3; i++)
+            assert_true(fabs((view.look_q8[i] - view.eye_q8[i]) / 16384.0 - ahead[i]) < 5e-4);
+        if (!above) {
+            assert_int_equal(view.eye_q8[2], eye[2]);
+            continue;
+        }
+        int32_t floor = yb_map_height(&map, (uint16_t)eye[0], (uint16_t)eye[1]);
+        floor = floor > view.water_q8 ? floor : view.water_q8;
+        const int32_t least = (int32_t)((int64_t)floor * view.exaggerate_q8 >> 8) + height;
+        assert_int_equal(view.eye_q8[2], eye[2] > least ? eye[2] : least);
+        raised += eye[2] < least;
+        yb_view_walk(&view, &map, (uint16_t)eye[0], (uint16_t)eye[1], height, azimuth, tilt);
+        assert_int_equal(view.eye_q8[2], least);
+    }
+    assert_in_range(raised, 100, 3000);
+    /* A place beyond the frame is its nearest side. */
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    yb_view_walk(&view, &map, 65535, 65535, 100, 0, 0);
+    assert_int_equal(view.eye_q8[0], map.east_q8);
+    assert_int_equal(view.eye_q8[1], map.north_q8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,6 +333,7 @@ int main(void)
         cmocka_unit_test(known_projections),
         cmocka_unit_test(orbits_keep_their_distance),
         cmocka_unit_test(any_view_at_all),
+        cmocka_unit_test(an_eye_keeps_off_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

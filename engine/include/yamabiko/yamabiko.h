@@ -413,12 +413,23 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map);
 void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
                    uint16_t elevation_bam, uint16_t distance_q8);
 
+/* Puts the eye at a place, looking along an azimuth (clockwise from north), up or down by a tilt.
+ * Above the frame it keeps `clearance` or more from the ground, or the water over it, as the view's
+ * scale raises them; the frame itself draws any eye, also one in the rock.
+ */
+void yb_view_fly(yb_view_t *view, const yb_map_t *map, const int32_t eye_q8[3],
+                 int32_t clearance_q8, uint16_t azimuth_bam, int16_t tilt_bam);
+
+/* The same on foot: the eye is `height` above ground or water at a place of the frame. */
+void yb_view_walk(yb_view_t *view, const yb_map_t *map, uint16_t x_q8, uint16_t y_q8,
+                  int32_t height_q8, uint16_t azimuth_bam, int16_t tilt_bam);
+
 /* Light from an azimuth (clockwise from north) and an elevation above the horizon. */
 void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 
 /* Casts the shadows of a map as a view's sun, vertical scale and water make them: once, for all
  * frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free afterwards.
- * A point is in shadow if the surface, refined to three cells, hides the sun; frames blend from cell
+ * A point is in shadow if the surface, refined to four cells, hides the sun; frames blend from cell
  * to cell. Cost: see scripts/bench instructions.
  */
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work);

@@ -168,6 +168,11 @@ static void contradictions_are_refused(void **state)
         "--contours 0",
         "--shadows 48",
         "--haze -1",
+        "--walk 1",
+        "--walk 1 2 --fly 1 2 3",
+        "--walk 1 2 --elevation 3",
+        "--height 3",
+        "--fly 1 2 3 --tilt 91",
         "--view orbit-45 --azimuth 3",
         "--eye 1 2 3 --distance 2",
     };
@@ -209,6 +214,30 @@ static void looks(void **state)
     yb_code_file_free(file);
 }
 
+static void on_foot_and_in_the_air(void **state)
+{
+    (void)state;
+    yb_code_file_t *file = code_hill(); /* 30 m a step, base 100 m */
+    yb_view_t by_engine;
+    yb_view_init(&by_engine, &file->map);
+    yb_view_walk(&by_engine, &file->map, 10 * 256, 20 * 256, 51, YB_DEGREES(90), 0);
+    yb_view_t view = view_of("--walk 300 600 --height 6 --azimuth 90", &file->map);
+    assert_memory_equal(view.eye_q8, by_engine.eye_q8, sizeof(view.eye_q8));
+    assert_memory_equal(view.look_q8, by_engine.look_q8, sizeof(view.look_q8));
+    assert_int_equal(view.azimuth_bam, 16384);
+    view = view_of("--fly 300 600 9100 --tilt -45", &file->map);
+    assert_int_equal(view.eye_q8[2], 300 * 256);
+    assert_int_equal(view.look_q8[2] - view.eye_q8[2], -11585);
+    view = view_of("--fly 300 600 -500", &file->map); /* half a step above the ground */
+    assert_int_equal(view.eye_q8[2], by_engine.eye_q8[2] - 51 + 128);
+    yb_view_options_t options;
+    yb_error_t error = {""};
+    assert_true(parse("--walk -1 5", &options, &error));
+    assert_false(yb_view_options_apply(&options, &file->map, &view, &error));
+    assert_non_null(strstr(error.text, "is not on the map"));
+    yb_code_file_free(file);
+}
+
 static void far_places_are_refused(void **state)
 {
     (void)state;
@@ -232,7 +261,7 @@ int main(void)
         cmocka_unit_test(metres_become_steps),        cmocka_unit_test(angles_are_rounded_once),
         cmocka_unit_test(screen_and_detail),          cmocka_unit_test(panel),
         cmocka_unit_test(contradictions_are_refused), cmocka_unit_test(far_places_are_refused),
-        cmocka_unit_test(looks),
+        cmocka_unit_test(looks),                      cmocka_unit_test(on_foot_and_in_the_air),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
