@@ -124,3 +124,21 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     if (frame->view.walls)
         walls_draw(frame, &view, &raster);
 }
+
+void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)
+{
+    const raster_t raster = {
+        .screen = &frame->screen,
+        .end_row = frame->screen.height,
+        .each = fn,
+        .context = context,
+    };
+    yb_stats_t stats = frame->stats;
+    refine_view_t view;
+    refine_see(frame, 0, frame->screen.height, &view);
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
+        if (in_rows(frame, t, 0, frame->screen.height))
+            refine_draw(frame, &view, &raster, t);
+    }
+    frame->stats = stats;
+}

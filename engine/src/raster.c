@@ -336,7 +336,7 @@ raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_s
                           const yb_spot_t *c, uint16_t pixel)
 {
     raster_look_t look = raster_look(raster, a, b, c);
-    if (look == RASTER_FRONT || look == RASTER_SMALL)
+    if (raster->band != NULL && (look == RASTER_FRONT || look == RASTER_SMALL))
         raster_fill(raster, a, b, c, look, pixel);
     return look;
 }

@@ -27,9 +27,11 @@ typedef struct {
 
 typedef struct {
     const yb_screen_t *screen;
-    const yb_band_t *band;
+    const yb_band_t *band;      /* NULL: nothing is drawn, only looked at */
     int32_t first_row, end_row; /* of the screen */
     const raster_cut_t *cut;    /* of the triangle to come, or NULL */
+    yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
+    void *context;
 } raster_t;
 
 /* Clears the band's depths. */
@@ -90,7 +92,7 @@ static inline raster_look_t raster_look(const raster_t *raster, const yb_spot_t 
 void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
                  raster_look_t look, uint16_t pixel);
 
-/* Both: looks, and draws what is in front. */
+/* Both: looks, and draws what is in front, if there is a band. */
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel);
 

@@ -425,6 +425,19 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
 
 /* --- Refinement ------------------------------------------------------------------------------- */
 
+static void hand_out(const raster_t *raster, const yb_point_t *const p[3])
+{
+    yb_vertex_t corner[3];
+    for (int i = 0; i < 3; i++) {
+        corner[i].x_q8 = (uint16_t)p[i]->place;
+        corner[i].y_q8 = (uint16_t)(p[i]->place >> 16);
+        corner[i].z_q8 = p[i]->top_q8;
+        corner[i].gx_q11 = (int16_t)((int32_t)(p[i]->slope & 0xffff) - 32768);
+        corner[i].gy_q11 = (int16_t)((int32_t)(p[i]->slope >> 16) - 32768);
+    }
+    raster->each(raster->context, &corner[0], &corner[1], &corner[2]);
+}
+
 /* Draws a triangle that is not split any more and has a corner without a spot. */
 static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                          const yb_point_t *const p[3])
@@ -433,7 +446,11 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
     if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
         misses_planes(frame, view, p, 3, 0))
         return;
-    frame->stats.drawn += clip_draw(frame, raster, p, shade_ground(frame, p)) ? 1 : 0;
+    if (!clip_draw(frame, raster, p, shade_ground(frame, p)))
+        return;
+    frame->stats.drawn++;
+    if (raster->band == NULL)
+        hand_out(raster, p);
 }
 
 /* Draws a triangle that a line crosses, of the shore or of a contour; false: none does. */
@@ -463,6 +480,10 @@ static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const rast
         return;
     }
     frame->stats.drawn++;
+    if (raster->band == NULL) {
+        hand_out(raster, p);
+        return;
+    }
     uint16_t pixel = shade_ground(frame, p);
     if (frame->lines && draw_lines(frame, raster, p, look, pixel))
         return;

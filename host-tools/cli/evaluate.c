@@ -122,16 +122,11 @@ static int check(request_t *request)
         return cli_usage("name one code and one reference: MAP.yb REFERENCE");
     if (request->json && request->sheet != NULL && strcmp(request->sheet, "-") == 0)
         return cli_usage("--json and '--sheet -' both want the standard output");
-    if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||
-        yb_view_options_given(&request->view, YB_OPTION_FORMAT) ||
-        yb_view_options_given(&request->view, YB_OPTION_BAND))
-        return cli_usage("--size, --format and --band do not apply: the sheet has its own size");
-    if (yb_view_options_given(&request->view, YB_OPTION_PALETTE) ||
-        yb_view_options_given(&request->view, YB_OPTION_CONTOURS) ||
-        yb_view_options_given(&request->view, YB_OPTION_SHADOWS) ||
-        yb_view_options_given(&request->view, YB_OPTION_HAZE))
-        return cli_usage("--palette, --contours, --shadows and --haze do not apply: both reliefs "
-                         "of the sheet look alike");
+    const char *look = yb_view_options_given(&request->view, YB_OPTION_SIZE)
+                           ? "size"
+                           : yb_view_options_look(&request->view);
+    if (look != NULL && strcmp(look, "sun") != 0)
+        return cli_usage("--%s does not apply: the sheet has its own size and look", look);
     if (!yb_view_options_check(&request->view, &error))
         return cli_usage("%s", error.text);
     return cli_part_check(&request->part);

@@ -11,11 +11,12 @@
 #include "output.h"
 #include "part.h"
 #include "surface.h"
+#include "view_options.h"
 
 enum {
     OPTION_DEPTH = 256,
     OPTION_REFERENCE,
-    OPTION_NO_DETAIL,
+    OPTION_REFINED,
     OPTION_STAGE,
     OPTION_SVG,
     OPTION_WIDTH,
@@ -33,7 +34,7 @@ enum {
 static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                         {"depth", required_argument, NULL, OPTION_DEPTH},
                                         {"reference", no_argument, NULL, OPTION_REFERENCE},
-                                        {"no-detail", no_argument, NULL, OPTION_NO_DETAIL},
+                                        {"refined", no_argument, NULL, OPTION_REFINED},
                                         {"stage", required_argument, NULL, OPTION_STAGE},
                                         {"svg", no_argument, NULL, OPTION_SVG},
                                         {"width", required_argument, NULL, OPTION_WIDTH},
@@ -41,13 +42,15 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"force", no_argument, NULL, OPTION_FORCE},
                                         CLI_PART_LONG_OPTIONS,
                                         {"help", no_argument, NULL, OPTION_HELP},
+                                        YB_VIEW_LONG_OPTIONS,
                                         {0}};
 
 typedef struct {
     const char *input, *output;
     cli_part_t part;
     long depth;
-    bool reference, smooth, force;
+    bool reference, refined, force;
+    yb_view_options_t view;
     bool svg;
     bool draws;           /* a drawing, not a mesh */
     bool drawing_options; /* some were given */
@@ -63,8 +66,8 @@ static int help(void)
           "\n"
           "Writes a map's triangles as a Wavefront OBJ file: metres, x east and y north from the\n"
           "south-west corner of the frame, z up above the datum; corners that triangles share are\n"
-          "written once. Without --depth or --reference these are the base triangles, whose\n"
-          "corners are the points of the contours and those that the rules add.\n"
+          "written once. Without --depth, --reference or --refined these are the base triangles,\n"
+          "whose corners are the points of the contours and those that the rules add.\n"
           "\n"
           "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
           "of GDAL: then the map has all their points, and no fractal detail.\n"
@@ -75,7 +78,8 @@ static int help(void)
           "  --depth N           refine until no edge is longer than the map's width halved N\n"
           "                      times, 0 to 8\n"
           "  --reference         the reference surface: no edge longer than a lattice step\n"
-          "  --no-detail         of the smooth surface, without fractal detail\n"
+          "  --refined           those triangles that 'yamabiko render' draws with the same view\n"
+          "                      options, without the walls; corners under water lie on it\n"
           "  --force             overwrite what exists\n"
           "  --help              this text\n"
           "\n"
@@ -91,9 +95,14 @@ static int help(void)
           "\n",
           stdout);
     fputs(cli_part_help, stdout);
+    fputs("\nView of --refined (--no-detail is for any mesh; --format, --band, --palette, --contours,\n"
+          "--shadows, --haze and --sun do not apply):\n",
+          stdout);
+    fputs(yb_view_options_help, stdout);
     fputs("\n"
           "Examples:\n"
           "  yamabiko mesh fuji.yb -o fuji.obj --depth 6\n"
+          "  yamabiko mesh fuji.yb -o frame.obj --refined --view orbit-45 --size 128x64\n"
           "  yamabiko mesh fuji.yb -o fuji.svg --stage links\n",
           stdout);
     return CLI_OK;
@@ -109,10 +118,15 @@ static uint16_t longest_q8(const request_t *request, const yb_map_t *map)
     return (uint16_t)(width >> request->depth);
 }
 
-static bool write_mesh(const request_t *request, const yb_map_t *map, yb_error_t *error)
+static bool write_mesh(const request_t *request, yb_map_t *map, yb_error_t *error)
 {
     yb_mesh_t mesh = {0};
-    bool good = yb_mesh_from_map(&mesh, map, longest_q8(request, map)) ||
+    yb_view_t view;
+    if (!yb_view_options_apply(&request->view, map, &view, error))
+        return false;
+    bool good = (request->refined
+                     ? yb_mesh_from_frame(&mesh, map, &view, &request->view.screen)
+                     : yb_mesh_from_map(&mesh, map, longest_q8(request, map))) ||
                 yb_error_set(error, "not enough memory for %s", request->output);
     good = good && yb_obj_file_write(request->output, request->force, &mesh, error);
     yb_mesh_free(&mesh);
@@ -127,7 +141,6 @@ static int run(const request_t *request)
     yb_code_file_t *file = cli_part_read_map(&request->part, request->input);
     if (file == NULL)
         return CLI_FAILED;
-    file->map.detail = file->map.detail && !request->smooth;
     const bool good = request->draws
                           ? yb_mesh_drawing_write(request->output, request->force, &file->map,
                                                   &file->load, &request->drawing, &error)
@@ -149,9 +162,10 @@ static bool take_stage(request_t *request, const char *name)
 
 static int check_drawing(request_t *request)
 {
-    if (request->reference || request->smooth || request->depth != BASE_TRIANGLES)
-        return cli_usage("a drawing shows the base triangles: leave --depth, --reference and "
-                         "--no-detail out");
+    if (request->reference || request->refined || !request->view.detail ||
+        request->depth != BASE_TRIANGLES)
+        return cli_usage("a drawing shows the base triangles: leave --depth, --reference, "
+                         "--refined and --no-detail out");
     const char *slash = strrchr(request->input, '/');
     request->drawing.name = slash == NULL ? request->input : slash + 1;
     request->drawing.width = request->width == 0 ? DRAWING_WIDTH : (uint32_t)request->width;
@@ -159,6 +173,18 @@ static int check_drawing(request_t *request)
         return cli_usage("--width: with a legend at least %d pixels; --plain leaves it out",
                          YB_MESH_DRAWING_LEAST);
     return CLI_OK;
+}
+
+static int check_view(const request_t *request)
+{
+    yb_error_t error;
+    const uint32_t detail = 1u << (YB_OPTION_NO_DETAIL - YB_OPTION_SIZE);
+    if (!request->refined && (request->view.given & ~detail) != 0)
+        return cli_usage("a view is for --refined: without it leave all of its options out");
+    if (yb_view_options_look(&request->view) != NULL)
+        return cli_usage("--%s does not apply: a mesh has no colours",
+                         yb_view_options_look(&request->view));
+    return yb_view_options_check(&request->view, &error) ? CLI_OK : cli_usage("%s", error.text);
 }
 
 static int check(request_t *request)
@@ -177,9 +203,9 @@ static int check(request_t *request)
     if (strcmp(request->output, "-") != 0 && (dot == NULL || strcasecmp(dot, ".obj") != 0))
         return cli_usage("a mesh is written as .obj, drawn as .svg or .png: '%s' ends otherwise",
                          request->output);
-    if (request->reference && request->depth != BASE_TRIANGLES)
-        return cli_usage("give --depth or --reference, not both");
-    return CLI_OK;
+    if (request->reference + request->refined + (request->depth != BASE_TRIANGLES) > 1)
+        return cli_usage("give one of --depth, --reference and --refined");
+    return check_view(request);
 }
 
 /* An option of the drawing. */
@@ -199,9 +225,12 @@ static int take_drawing(request_t *request, int answer)
 
 int cli_mesh(int argc, char **argv)
 {
-    request_t request = {.depth = BASE_TRIANGLES, .drawing = {.stage = YB_STAGE_TRIANGLES}};
+    request_t request = {.depth = BASE_TRIANGLES,
+                         .view = yb_view_options_default(),
+                         .drawing = {.stage = YB_STAGE_TRIANGLES}};
     int answer = 0;
     int status = CLI_OK;
+    yb_error_t error;
     while (status == CLI_OK && (answer = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         switch (answer) {
         case 'o':
@@ -215,8 +244,8 @@ int cli_mesh(int argc, char **argv)
         case OPTION_REFERENCE:
             request.reference = true;
             break;
-        case OPTION_NO_DETAIL:
-            request.smooth = true;
+        case OPTION_REFINED:
+            request.refined = true;
             break;
         case OPTION_SVG:
             request.svg = true;
@@ -232,6 +261,11 @@ int cli_mesh(int argc, char **argv)
         case OPTION_HELP:
             return help();
         default:
+            if (yb_view_options_owns(answer)) {
+                if (!yb_view_options_take(&request.view, answer, argc, argv, &error))
+                    return cli_usage("%s", error.text);
+                break;
+            }
             status = cli_part_take_rest(&request.part, answer, argc, argv);
             break;
         }

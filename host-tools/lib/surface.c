@@ -133,18 +133,37 @@ static void weld_triangle(void *context, const yb_vertex_t *a, const yb_vertex_t
     mesh->triangle_count++;
 }
 
+static bool weld_end(weld_t *weld)
+{
+    free(weld->z_q8);
+    free(weld->slot);
+    free(weld->key);
+    if (weld->failed)
+        yb_mesh_free(weld->mesh);
+    return !weld->failed;
+}
+
 bool yb_mesh_from_map(yb_mesh_t *mesh, const yb_map_t *map, uint16_t longest_q8)
 {
     *mesh = (yb_mesh_t){0};
     weld_t weld = {.mesh = mesh, .map = map};
     for (yb_triangle_t i = 0; i < map->triangle_count; i++)
         yb_map_refine(map, i, longest_q8, weld_triangle, &weld);
-    free(weld.z_q8);
-    free(weld.slot);
-    free(weld.key);
-    if (weld.failed)
-        yb_mesh_free(mesh);
-    return !weld.failed;
+    return weld_end(&weld);
+}
+
+bool yb_mesh_from_frame(yb_mesh_t *mesh, const yb_map_t *map, const yb_view_t *view,
+                        const yb_screen_t *screen)
+{
+    *mesh = (yb_mesh_t){0};
+    yb_frame_t *frame = malloc(sizeof(*frame));
+    if (frame == NULL)
+        return false;
+    weld_t weld = {.mesh = mesh, .map = map};
+    yb_frame_begin(frame, map, view, screen);
+    yb_frame_triangles(frame, weld_triangle, &weld);
+    free(frame);
+    return weld_end(&weld);
 }
 
 /* Exactly the side for the last point: open isolines must end on the frame. */

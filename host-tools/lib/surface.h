@@ -35,6 +35,10 @@ double yb_map_z_m(const yb_map_t *map, int32_t z_q8);
  * memory. */
 bool yb_mesh_from_map(yb_mesh_t *mesh, const yb_map_t *map, uint16_t longest_q8);
 
+/* The triangles that a frame draws: see yb_frame_triangles. False: no memory. */
+bool yb_mesh_from_frame(yb_mesh_t *mesh, const yb_map_t *map, const yb_view_t *view,
+                        const yb_screen_t *screen);
+
 /* A lattice of columns * rows heights, row 0 in the south, at least two each way, its outermost
  * points on the frame from (0, 0) to (east_m, north_m); each square is cut from its south-west to
  * its north-east corner.

@@ -241,30 +241,49 @@ bool yb_view_options_take(yb_view_options_t *options, int option, int argc, char
     }
 }
 
-static const struct {
+typedef struct {
     int option;
     const char *name;
-} places[] = {{YB_OPTION_EYE, "eye"},
-              {YB_OPTION_VIEW, "view"},
-              {YB_OPTION_WALK, "walk"},
-              {YB_OPTION_FLY, "fly"}};
+} named_t;
+
+static const named_t places[] = {{YB_OPTION_EYE, "eye"},
+                                 {YB_OPTION_VIEW, "view"},
+                                 {YB_OPTION_WALK, "walk"},
+                                 {YB_OPTION_FLY, "fly"},
+                                 {0, NULL}};
+static const named_t look[] = {{YB_OPTION_FORMAT, "format"},
+                               {YB_OPTION_BAND, "band"},
+                               {YB_OPTION_PALETTE, "palette"},
+                               {YB_OPTION_CONTOURS, "contours"},
+                               {YB_OPTION_SHADOWS, "shadows"},
+                               {YB_OPTION_HAZE, "haze"},
+                               {YB_OPTION_SUN, "sun"},
+                               {0, NULL}};
+
+static const char *first_given(const yb_view_options_t *options, const named_t *named)
+{
+    while (named->name != NULL && !yb_view_options_given(options, named->option))
+        named++;
+    return named->name;
+}
 
 const char *yb_view_options_placed(const yb_view_options_t *options)
 {
-    for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
-        if (yb_view_options_given(options, places[i].option))
-            return places[i].name;
-    }
-    return NULL;
+    return first_given(options, places);
+}
+
+const char *yb_view_options_look(const yb_view_options_t *options)
+{
+    return first_given(options, look);
 }
 
 bool yb_view_options_check(const yb_view_options_t *options, yb_error_t *error)
 {
     const char *placed = yb_view_options_placed(options);
-    for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
-        if (yb_view_options_given(options, places[i].option) && placed != places[i].name)
+    for (const named_t *place = places; place->name != NULL; place++) {
+        if (yb_view_options_given(options, place->option) && placed != place->name)
             return yb_error_set(error, "--%s and --%s both say where the eye is: give one", placed,
-                                places[i].name);
+                                place->name);
     }
     const bool eye = yb_view_options_given(options, YB_OPTION_EYE);
     const bool moves = yb_view_options_given(options, YB_OPTION_WALK) ||

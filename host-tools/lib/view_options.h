@@ -132,6 +132,11 @@ bool yb_view_options_given(const yb_view_options_t *options, int option);
  */
 const char *yb_view_options_placed(const yb_view_options_t *options);
 
+/* The name of an option that was given and says how a picture looks, not what is seen: --format,
+ * --band, --palette, --contours, --shadows, --haze, --sun; or NULL.
+ */
+const char *yb_view_options_look(const yb_view_options_t *options);
+
 /* Takes the option that getopt_long has just answered, its value from optarg and, where it has two
  * or three, from argv[optind …]. False with a sentence for a wrong value.
  */

@@ -11,6 +11,7 @@
 #include "colour.h"
 #include "maps.h"
 #include "plain_frame.h"
+#include "raster.h"
 
 enum {
     WIDTH = 320,
@@ -322,6 +323,68 @@ static void there_are_no_cracks(void **state)
     assert_true(hits > 400000 && gaps < hits / 500);
 }
 
+/* --- The triangles themselves ----------------------------------------------------------------- */
+
+enum {
+    MOST_HANDED = 60000
+};
+static uint32_t handed[MOST_HANDED]; /* a sum over the corners of each */
+static uint32_t handed_count;
+
+static uint32_t sum_of(uint32_t place_a, uint32_t place_b, uint32_t place_c, int32_t z)
+{
+    return place_a * 3 + place_b * 5 + place_c * 7 + (uint32_t)z;
+}
+
+static void take_triangle(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
+                          const yb_vertex_t *c)
+{
+    (void)context;
+    assert_true(handed_count < MOST_HANDED);
+    handed[handed_count++] =
+        sum_of((uint32_t)a->y_q8 << 16 | a->x_q8, (uint32_t)b->y_q8 << 16 | b->x_q8,
+               (uint32_t)c->y_q8 << 16 | c->x_q8, a->z_q8 + b->z_q8 + c->z_q8);
+}
+
+/* Those that plain drawing would draw, in its order, are handed out in this one. */
+static void expect_leaf(void *context, const yb_point_t *const p[3])
+{
+    uint32_t *next = context;
+    const raster_t whole_screen = {.screen = &frame.screen, .end_row = frame.screen.height};
+    raster_look_t look = raster_look(&whole_screen, &p[0]->spot, &p[1]->spot, &p[2]->spot);
+    uint32_t sum = sum_of(p[0]->place, p[1]->place, p[2]->place,
+                          p[0]->top_q8 + p[1]->top_q8 + p[2]->top_q8);
+    if (look == RASTER_NOTHING)
+        return;
+    bool is_next = *next < handed_count && handed[*next] == sum;
+    assert_true(is_next || look == RASTER_BEYOND); /* clipped ones may be all outside */
+    *next += is_next ? 1 : 0;
+}
+
+static void what_is_drawn_is_handed_out(void **state)
+{
+    (void)state;
+    rng_t rng = {79};
+    uint32_t all = 0;
+    for (int round = 0; round < 200; round++) {
+        yb_view_t view;
+        const yb_screen_t *screen = random_scene(&rng, round, &view);
+        view.walls = false;
+        view.edge_q4 = view.edge_q4 < 96 ? 96 : view.edge_q4;
+        yb_frame_begin(&frame, &map, &view, screen);
+        draw(whole, 0, screen->height);
+        uint32_t next = 0;
+        handed_count = 0;
+        yb_frame_triangles(&frame, take_triangle, NULL);
+        CHECK(handed_count == frame.stats.drawn, "view %d: %d handed out, %d drawn", round,
+              (int)handed_count, (int)frame.stats.drawn);
+        (void)plain_leaves(&frame, expect_leaf, &next);
+        CHECK(next == handed_count, "view %d: triangle %d is not drawn", round, (int)next);
+        all += handed_count;
+    }
+    assert_true(all > 100000);
+}
+
 /* --- Bounds ----------------------------------------------------------------------------------- */
 
 static void leaves_keep_to_their_bound(void **state)
@@ -492,6 +555,7 @@ int main(void)
         cmocka_unit_test(a_band_leaves_the_rest_alone),
         cmocka_unit_test(culling_changes_no_pixel),
         cmocka_unit_test(there_are_no_cracks),
+        cmocka_unit_test(what_is_drawn_is_handed_out),
         cmocka_unit_test(leaves_keep_to_their_bound),
         cmocka_unit_test(sane_views_have_levels_enough),
         cmocka_unit_test(walls_meet_the_ground),

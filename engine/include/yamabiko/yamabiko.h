@@ -564,6 +564,12 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
  */
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band);
 
+/* Hands out each triangle of the ground that the whole frame draws, as it is drawn: refined, facing
+ * the eye, on the screen. z of a corner is the water's where that is above the ground, slopes are
+ * the smooth surface's. frame->stats stay as they are.
+ */
+void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context);
+
 #ifdef __cplusplus
 }
 #endif
