@@ -21,4 +21,7 @@ void report_paint_stack(void);
 /* Bytes that it has used since, counted from where report_paint_stack was called. */
 uint32_t report_stack_used(void);
 
+/* Ends the emulator by semihosting, on Arm. */
+void report_leave(void);
+
 #endif

@@ -31,8 +31,8 @@ class MeasureError(Exception):
     """A figure could not be had."""
 
 
-def bench_elf(board):
-    return FIRMWARE / board / "bin" / f"bench-{board}.elf"
+def bench_elf(board, program="bench"):
+    return FIRMWARE / board / "bin" / f"{program}-{board}.elf"
 
 
 def firmware_elf(board):
@@ -105,7 +105,7 @@ def _read(run, console, counts):
     run.regions = {name: count - counts[0] for name, count in zip(names, counts)}
 
 
-def run_bench(board, code, more=""):
+def run_bench(board, code, more="", program="bench"):
     """Runs the bench of a board with the code (bytes) in the map slot; `more`: plugin options."""
     run = Run()
     with tempfile.TemporaryDirectory(prefix="yamabiko-bench-") as folder:
@@ -113,7 +113,7 @@ def run_bench(board, code, more=""):
         counts_path = os.path.join(folder, "counts")
         with open(code_path, "wb") as file:
             file.write(code)
-        command = _command(board, bench_elf(board), code_path, counts_path, more)
+        command = _command(board, bench_elf(board, program), code_path, counts_path, more)
         try:
             result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True,
                                     timeout=PATIENCE_S, check=False)
