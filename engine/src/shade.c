@@ -28,30 +28,37 @@ static uint32_t reciprocal_root(uint32_t a)
     return root + 1 - (step * (a >> 18 & 255) >> 8);
 }
 
-/* The shade of a surface by the cosine between its upward normal n, of up to 30 bits, and the sun
- * (Lambert). The normal is first brought to 15 bits: its square then fits 32, and the dot product
- * is within 3 * 2^29.
- */
-static int32_t lambert(const yb_frame_t *frame, int32_t x, int32_t y, int32_t z)
+/* A direction. */
+typedef struct {
+    int32_t x, y, z;
+} normal_t;
+
+/* Brings the greatest of three numbers to 15 bits, so that their squares fit 32. */
+static void to_15_bits(normal_t *n)
 {
-    uint32_t all = (uint32_t)(fix_abs(x) | fix_abs(y) | fix_abs(z));
-    if (all == 0)
-        return DARKEST;
-    int shift = fix_log2_floor(all) - 14;
+    uint32_t all = (uint32_t)(fix_abs(n->x) | fix_abs(n->y) | fix_abs(n->z));
+    int shift = fix_log2_floor(all | 1) - 14;
     if (shift >= 0) {
-        x >>= shift;
-        y >>= shift;
-        z >>= shift;
+        n->x >>= shift;
+        n->y >>= shift;
+        n->z >>= shift;
     } else {
-        x *= 1 << -shift;
-        y *= 1 << -shift;
-        z *= 1 << -shift;
+        n->x *= 1 << -shift;
+        n->y *= 1 << -shift;
+        n->z *= 1 << -shift;
     }
+}
+
+/* The shade of a surface by the cosine between its outward normal, of 15 bits, and the sun
+ * (Lambert). The dot product is within 3 * 2^29.
+ */
+static int32_t lambert(const yb_frame_t *frame, const normal_t *n)
+{
     const int16_t *sun = frame->view.sun_q14;
-    int32_t dot = x * sun[0] + y * sun[1] + z * sun[2];
+    int32_t dot = n->x * sun[0] + n->y * sun[1] + n->z * sun[2];
     if (dot <= 0)
         return DARKEST;
-    uint32_t square = (uint32_t)(x * x) + (uint32_t)(y * y) + (uint32_t)(z * z);
+    uint32_t square = (uint32_t)(n->x * n->x) + (uint32_t)(n->y * n->y) + (uint32_t)(n->z * n->z);
     uint32_t along = (uint32_t)dot >> 14;
     while (square < (uint32_t)1 << 30) { /* from 2^28 on: once at most */
         square <<= 2;
@@ -66,21 +73,22 @@ static int32_t lambert(const yb_frame_t *frame, int32_t x, int32_t y, int32_t z)
     return fix_min(DARKEST + (int32_t)shade, SHADES - 1);
 }
 
-/* The shade of a triangle by its upward normal, from differences of at most 14 bits: a product of
- * two has 28.
- */
-static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
+/* A height, or a slope, as the view's scale raises it: below 2^20 * 2^8. */
+static inline int32_t raised(const yb_frame_t *frame, int32_t height)
+{
+    int32_t scale = frame->view.exaggerate_q8;
+    return scale == 256 ? height : (height * (scale >> 3)) >> 5;
+}
+
+/* A triangle's upward normal, from differences of at most 14 bits: a product of two has 28. */
+static void find_normal(const yb_frame_t *frame, const yb_point_t *const p[3], normal_t *normal)
 {
     int32_t x1 = relief_dx(p[0]->place, p[1]->place);
     int32_t y1 = relief_dy(p[0]->place, p[1]->place);
     int32_t x2 = relief_dx(p[0]->place, p[2]->place);
     int32_t y2 = relief_dy(p[0]->place, p[2]->place);
-    int32_t z1 = p[1]->top_q8 - p[0]->top_q8;
-    int32_t z2 = p[2]->top_q8 - p[0]->top_q8;
-    if (frame->view.exaggerate_q8 != 256) { /* 2^20 * 2^8 */
-        z1 = (z1 * (frame->view.exaggerate_q8 >> 3)) >> 5;
-        z2 = (z2 * (frame->view.exaggerate_q8 >> 3)) >> 5;
-    }
+    int32_t z1 = raised(frame, p[1]->top_q8 - p[0]->top_q8);
+    int32_t z2 = raised(frame, p[2]->top_q8 - p[0]->top_q8);
     const int32_t most = (int32_t)1 << 14;
     while ((uint32_t)((x1 + most) | (y1 + most) | (x2 + most) | (y2 + most) | (z1 + most) |
                       (z2 + most)) >= (uint32_t)1 << 15) {
@@ -91,7 +99,42 @@ static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
         y2 >>= 1;
         z2 >>= 1;
     }
-    return lambert(frame, y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2);
+    *normal = (normal_t){y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2};
+    to_15_bits(normal);
+}
+
+/* The mean of three slopes, each with 2^15 added: 21845 / 2^16 is a third. */
+static inline int32_t mean_slope(uint32_t a, uint32_t b, uint32_t c)
+{
+    return ((int32_t)(a + b + c) - 3 * 32768) * 21845 >> 16;
+}
+
+/* Turns a triangle's normal half way towards that of the smooth surface, which the slopes at its
+ * corners tell: the facets of a coarse mesh vanish, the fractal detail stays. z of 14 bits times a
+ * slope of 2^13, raised by up to 2^3: below 2^30.
+ */
+static void smooth_normal(const yb_frame_t *frame, const yb_point_t *const p[3], normal_t *normal)
+{
+    uint32_t a = p[0]->slope;
+    uint32_t b = p[1]->slope;
+    uint32_t c = p[2]->slope;
+    int32_t east = raised(frame, mean_slope(a & 0xffff, b & 0xffff, c & 0xffff));
+    int32_t north = raised(frame, mean_slope(a >> 16, b >> 16, c >> 16));
+    int32_t half = normal->z >> 1;
+    normal->x = (normal->x >> 1) - (half * east >> 11);
+    normal->y = (normal->y >> 1) - (half * north >> 11);
+    to_15_bits(normal);
+}
+
+/* The shade of a triangle of the ground, of the water, or between them. */
+static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
+{
+    normal_t normal;
+    int32_t water = frame->view.water_q8;
+    find_normal(frame, p, &normal);
+    if (frame->map->smooth && p[0]->z_q8 > water && p[1]->z_q8 > water && p[2]->z_q8 > water)
+        smooth_normal(frame, p, &normal);
+    return lambert(frame, &normal);
 }
 
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
@@ -178,7 +221,8 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t p
     if (low < view->water_q8) {
         if (high <= view->water_q8)
             return false;
-        const int32_t flat = shadowed(frame, p, lambert(frame, 0, 0, 1));
+        static const normal_t level = {0, 0, 1 << 14};
+        const int32_t flat = shadowed(frame, p, lambert(frame, &level));
         cut->interval = 0;
         cut->zero = (int32_t)1 << 15;
         cut->below = water_pixel(frame, flat, near);
@@ -211,7 +255,9 @@ uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point
     /* Outward: to the right of the edge. */
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
-    int32_t shade = fix_max(lambert(frame, dy, -dx, 0) - WALL_DIM, DARKEST);
+    normal_t outward = {dy, -dx, 0};
+    to_15_bits(&outward);
+    int32_t shade = fix_max(lambert(frame, &outward) - WALL_DIM, DARKEST);
     int32_t near = fix_max(a->spot.near, b->spot.near);
     int32_t water = frame->view.water_q8;
     if (a->z_q8 <= water && b->z_q8 <= water)
