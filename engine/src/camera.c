@@ -118,6 +118,7 @@ void camera_clamp(yb_frame_t *frame)
     for (int i = 0; i < 3; i++) {
         view->eye_q8[i] = fix_clamp(view->eye_q8[i], -FAR_Q8, FAR_Q8);
         view->look_q8[i] = fix_clamp(view->look_q8[i], -FAR_Q8, FAR_Q8);
+        view->lamp_q8[i] = fix_clamp(view->lamp_q8[i], -FAR_Q8, FAR_Q8);
     }
     /* The picture must stay within the pyramid of slope 2 that camera_project tests against. */
     int32_t least = LEAST_ZOOM_Q12;

@@ -87,7 +87,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     int32_t stray = farthest_stray(frame);
     camera_begin(frame, stray);
     begin_lines(frame, stray);
-    frame->even_water = view->shadow == NULL && view->haze_q8 <= 0;
+    frame->even_water = view->shadow == NULL && view->haze_q8 <= 0 && !view->lamp;
     colour_begin(frame);
     frame->row_shift = 0;
     while ((screen->height - 1) >> frame->row_shift > 15)

@@ -49,28 +49,53 @@ static void to_15_bits(normal_t *n)
     }
 }
 
-/* The shade of a surface by the cosine between its outward normal, of 15 bits, and the sun
- * (Lambert). The dot product is within 3 * 2^29.
+/* 2^31 over the length of a direction of 15 bits, times a power of two that brings it to 16 bits:
+ * 2^*more, 0 or 1.
  */
-static int32_t lambert(const yb_frame_t *frame, const normal_t *n)
+static uint32_t reciprocal_length(const normal_t *n, int *more)
 {
-    const int16_t *sun = frame->view.sun_q14;
-    int32_t dot = n->x * sun[0] + n->y * sun[1] + n->z * sun[2];
+    uint32_t square = (uint32_t)(n->x * n->x) + (uint32_t)(n->y * n->y) + (uint32_t)(n->z * n->z);
+    *more = square < (uint32_t)1 << 30 ? 1 : 0; /* from 2^28 on */
+    return reciprocal_root(square << 2 * *more);
+}
+
+/* The shade of a surface by the cosine between its outward normal, of 15 bits, and a unit vector
+ * of 14 bits to the light (Lambert). The dot product is within 3 * 2^29.
+ */
+static int32_t lambert(const normal_t *n, const int16_t light[3])
+{
+    int32_t dot = n->x * light[0] + n->y * light[1] + n->z * light[2];
     if (dot <= 0)
         return DARKEST;
-    uint32_t square = (uint32_t)(n->x * n->x) + (uint32_t)(n->y * n->y) + (uint32_t)(n->z * n->z);
-    uint32_t along = (uint32_t)dot >> 14;
-    while (square < (uint32_t)1 << 30) { /* from 2^28 on: once at most */
-        square <<= 2;
-        along <<= 1;
-    }
+    int more = 0;
+    uint32_t root = reciprocal_length(n, &more);
+    uint32_t along = (uint32_t)dot >> 14 << more;
     /* The cosine times 2^31, for a unit vector to the sun: any other is cut. */
     along = along < 65535 ? along : 65535;
-    uint32_t cosine_q12 = along * reciprocal_root(square) >> 19;
+    uint32_t cosine_q12 = along * root >> 19;
     /* Rounded up a little, so that level ground and water below a sun 30 degrees high, a half on
      * the dot, have one shade whatever triangles they are made of. */
     uint32_t shade = (cosine_q12 * (SHADES - DARKEST) + 1024) >> 12;
     return fix_min(DARKEST + (int32_t)shade, SHADES - 1);
+}
+
+/* Where the light comes from at a point of the map: the sun, or a lamp not far away. */
+static void find_light(const yb_frame_t *frame, uint32_t place, int32_t raised_q8,
+                       int16_t light[3])
+{
+    const yb_view_t *view = &frame->view;
+    for (int i = 0; i < 3; i++)
+        light[i] = view->sun_q14[i];
+    if (!view->lamp)
+        return;
+    normal_t to_lamp = {view->lamp_q8[0] - (int32_t)(place & 0xffff),
+                        view->lamp_q8[1] - (int32_t)(place >> 16), view->lamp_q8[2] - raised_q8};
+    int more = 0;
+    to_15_bits(&to_lamp);
+    int32_t root = (int32_t)(reciprocal_length(&to_lamp, &more) >> 1);
+    light[0] = (int16_t)(to_lamp.x * root >> (16 - more));
+    light[1] = (int16_t)(to_lamp.y * root >> (16 - more));
+    light[2] = (int16_t)(to_lamp.z * root >> (16 - more));
 }
 
 /* A height, or a slope, as the view's scale raises it: below 2^20 * 2^8. */
@@ -126,6 +151,14 @@ static void smooth_normal(const yb_frame_t *frame, const yb_point_t *const p[3],
     to_15_bits(normal);
 }
 
+/* The shade of a surface at a point, which may stand for a small triangle. */
+static int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t *normal)
+{
+    int16_t light[3];
+    find_light(frame, at->place, raised(frame, at->top_q8), light);
+    return lambert(normal, light);
+}
+
 /* The shade of a triangle of the ground, of the water, or between them. */
 static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
 {
@@ -134,7 +167,7 @@ static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
     find_normal(frame, p, &normal);
     if (frame->map->smooth && p[0]->z_q8 > water && p[1]->z_q8 > water && p[2]->z_q8 > water)
         smooth_normal(frame, p, &normal);
-    return lambert(frame, &normal);
+    return lit(frame, p[0], &normal);
 }
 
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
@@ -222,7 +255,7 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t p
         if (high <= view->water_q8)
             return false;
         static const normal_t level = {0, 0, 1 << 14};
-        const int32_t flat = shadowed(frame, p, lambert(frame, &level));
+        const int32_t flat = shadowed(frame, p, lit(frame, p[0], &level));
         cut->interval = 0;
         cut->zero = (int32_t)1 << 15;
         cut->below = water_pixel(frame, flat, near);
@@ -257,7 +290,7 @@ uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point
     int32_t dy = relief_dy(a->place, b->place);
     normal_t outward = {dy, -dx, 0};
     to_15_bits(&outward);
-    int32_t shade = fix_max(lambert(frame, &outward) - WALL_DIM, DARKEST);
+    int32_t shade = fix_max(lit(frame, a, &outward) - WALL_DIM, DARKEST);
     int32_t near = fix_max(a->spot.near, b->spot.near);
     int32_t water = frame->view.water_q8;
     if (a->z_q8 <= water && b->z_q8 <= water)

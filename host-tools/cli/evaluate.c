@@ -77,8 +77,8 @@ static void help(void)
         "  --force             overwrite what exists\n"
         "  --help              this text\n"
         "\n"
-        "View of --sheet (--size, --format, --band, --palette, --contours, --shadows and --haze do\n"
-        "not apply):\n",
+        "View of --sheet (--size, --format, --band, --palette, --contours, --shadows, --haze and\n"
+        "--lamp do not apply):\n",
         stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"

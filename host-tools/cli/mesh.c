@@ -96,7 +96,7 @@ static int help(void)
           stdout);
     fputs(cli_part_help, stdout);
     fputs("\nView of --refined (--no-detail is for any mesh; --format, --band, --palette, --contours,\n"
-          "--shadows, --haze and --sun do not apply):\n",
+          "--shadows, --haze, --sun and --lamp do not apply):\n",
           stdout);
     fputs(yb_view_options_help, stdout);
     fputs("\n"

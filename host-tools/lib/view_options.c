@@ -35,6 +35,8 @@ const char yb_view_options_help[] =
     "  --tilt DEG          up, or down if negative, -90 to 90 (default 0)\n"
     "  --fov DEG           width of the picture, 4 to 126 (default 50)\n"
     "  --sun AZ EL         direction of the light (default 315 30)\n"
+    "  --lamp X Y Z        a lamp there instead of the sun, placed as --eye; it casts no\n"
+    "                      shadows\n"
     "  --water M           water up to M metres above the datum\n"
     "  --palette NAME      natural (default), hypsometric, mono or night\n"
     "  --contours M        lines on the relief at every M metres above the datum\n"
@@ -213,6 +215,8 @@ bool yb_view_options_take(yb_view_options_t *options, int option, int argc, char
         return parse_place("eye", argc, argv, options->eye_m, error);
     case YB_OPTION_LOOK:
         return parse_place("look", argc, argv, options->look_m, error);
+    case YB_OPTION_LAMP:
+        return parse_place("lamp", argc, argv, options->lamp_m, error);
     case YB_OPTION_FLY:
         return parse_place("fly", argc, argv, options->eye_m, error);
     case YB_OPTION_WALK:
@@ -258,6 +262,7 @@ static const named_t look[] = {{YB_OPTION_FORMAT, "format"},
                                {YB_OPTION_SHADOWS, "shadows"},
                                {YB_OPTION_HAZE, "haze"},
                                {YB_OPTION_SUN, "sun"},
+                               {YB_OPTION_LAMP, "lamp"},
                                {0, NULL}};
 
 static const char *first_given(const yb_view_options_t *options, const named_t *named)
@@ -294,6 +299,11 @@ bool yb_view_options_check(const yb_view_options_t *options, yb_error_t *error)
                             placed);
     if (placed != NULL && !eye && !moves && yb_view_options_given(options, YB_OPTION_AZIMUTH))
         return yb_error_set(error, "--view is complete: leave --azimuth out");
+    if (yb_view_options_given(options, YB_OPTION_LAMP) &&
+        (yb_view_options_given(options, YB_OPTION_SUN) ||
+         yb_view_options_given(options, YB_OPTION_SHADOWS)))
+        return yb_error_set(error, "a lamp shines instead of the sun and casts no shadows: leave "
+                                   "--sun and --shadows out");
     if (!eye && yb_view_options_given(options, YB_OPTION_LOOK))
         return yb_error_set(error, "--look needs --eye");
     if (!moves && (yb_view_options_given(options, YB_OPTION_HEIGHT) ||
@@ -417,6 +427,10 @@ bool yb_view_options_apply(const yb_view_options_t *options, yb_map_t *map, yb_v
     view->edge_q4 = (uint16_t)lround(options->edge_px * 16);
     if (yb_view_options_given(options, YB_OPTION_SUN))
         yb_view_sun(view, bam(options->sun_deg[0]), bam(options->sun_deg[1]));
+    view->lamp = yb_view_options_given(options, YB_OPTION_LAMP);
+    if (view->lamp && !place_to_q8(options->lamp_m, map, view, view->lamp_q8))
+        return yb_error_set(error, "--lamp: the lamp is more than %d steps of %g m from the map",
+                            FARTHEST_STEPS, yb_map_cell_m(map));
     if (!apply_water(options, map, view))
         return yb_error_set(error, "--water: %g m is too far from the map's heights",
                             options->water_m);

@@ -46,6 +46,7 @@ enum {
     YB_OPTION_DISTANCE,
     YB_OPTION_FOV,
     YB_OPTION_SUN,
+    YB_OPTION_LAMP,
     YB_OPTION_WATER,
     YB_OPTION_PALETTE,
     YB_OPTION_CONTOURS,
@@ -76,6 +77,7 @@ enum {
     {"distance", required_argument, NULL, YB_OPTION_DISTANCE},          \
     {"fov", required_argument, NULL, YB_OPTION_FOV},                    \
     {"sun", required_argument, NULL, YB_OPTION_SUN},                    \
+    {"lamp", required_argument, NULL, YB_OPTION_LAMP},                  \
     {"water", required_argument, NULL, YB_OPTION_WATER},                \
     {"palette", required_argument, NULL, YB_OPTION_PALETTE},            \
     {"contours", required_argument, NULL, YB_OPTION_CONTOURS},          \
@@ -107,6 +109,7 @@ typedef struct {
     double azimuth_deg, elevation_deg, distance; /* map widths */
     double fov_deg;
     double sun_deg[2]; /* azimuth, elevation */
+    double lamp_m[3];
     double water_m;
     yb_palette_t palette;
     double contours_m; /* 0: none */
@@ -133,7 +136,7 @@ bool yb_view_options_given(const yb_view_options_t *options, int option);
 const char *yb_view_options_placed(const yb_view_options_t *options);
 
 /* The name of an option that was given and says how a picture looks, not what is seen: --format,
- * --band, --palette, --contours, --shadows, --haze, --sun; or NULL.
+ * --band, --palette, --contours, --shadows, --haze, --sun, --lamp; or NULL.
  */
 const char *yb_view_options_look(const yb_view_options_t *options);
 

@@ -121,6 +121,9 @@ static const yb_shadow_t *random_shadow(rng_t *rng)
 void random_look(yb_view_t *view, rng_t *rng)
 {
     view->contour_q8 = view->haze_q8 = 0;
+    view->lamp = rng_one_in(rng, 5);
+    for (int i = 0; i < 3; i++)
+        view->lamp_q8[i] = rng_range(rng, -70000, 130000);
     view->shadow = NULL;
     view->palette = (yb_palette_t)rng_range(rng, 0, YB_PALETTES - 1);
     if (rng_one_in(rng, 2)) {
@@ -213,5 +216,7 @@ void wild_view(yb_view_t *view, rng_t *rng)
     view->contour_q8 = wild_number(rng);
     view->contour_at_q8 = wild_number(rng);
     view->haze_q8 = wild_number(rng);
+    for (int i = 0; i < 3; i++)
+        view->lamp_q8[i] = wild_number(rng);
     view->max_leaves = (uint32_t)rng_range(rng, 1, 3000);
 }

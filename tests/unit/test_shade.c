@@ -122,6 +122,37 @@ static void light_is_lamberts(void **state)
     print_message("shades are within %.3f of the truth, rounded down\n", worst - 0.5);
 }
 
+/* A lamp far away in the sun's direction lights as the sun does, one nearby as it stands. */
+static void a_lamp_shines_from_its_place(void **state)
+{
+    (void)state;
+    rng_t rng = {605};
+    begin(YB_GREY4);
+    int beside = 0;
+    for (int round = 0; round < 4000; round++) {
+        yb_point_t p[3];
+        const yb_point_t *const corner[3] = {&p[0], &p[1], &p[2]};
+        random_triangle(&rng, p);
+        const int32_t way[3] = {rng_range(&rng, -9000, 9000), rng_range(&rng, -9000, 9000),
+                                rng_range(&rng, 100, 9000)};
+        const double length = sqrt((double)way[0] * way[0] + (double)way[1] * way[1] +
+                                   (double)way[2] * way[2]);
+        const int32_t at[3] = {(int32_t)(p[0].place & 0xffff), (int32_t)(p[0].place >> 16),
+                               p[0].top_q8};
+        for (int i = 0; i < 3; i++) {
+            frame.view.lamp_q8[i] = at[i] + way[i];
+            frame.view.sun_q14[i] = (int16_t)lround(way[i] / length * 16384);
+        }
+        frame.view.lamp = true;
+        const int by_lamp = shade_ground(&frame, corner);
+        frame.view.lamp = false;
+        const int by_sun = shade_ground(&frame, corner);
+        assert_true(abs(by_lamp - by_sun) <= 1);
+        beside += by_lamp != by_sun;
+    }
+    assert_true(beside < 100);
+}
+
 static void shadows_dim_and_never_hide(void **state)
 {
     (void)state;
@@ -253,6 +284,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(light_is_lamberts, start_view),
+        cmocka_unit_test_setup(a_lamp_shines_from_its_place, start_view),
         cmocka_unit_test_setup(shadows_dim_and_never_hide, start_view),
         cmocka_unit_test_setup(haze_takes_over_with_distance, start_view),
         cmocka_unit_test_setup(palettes_have_their_shades, start_view),

@@ -388,6 +388,8 @@ typedef struct {
     uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than a
                              * sixteenth of the screen's width */
     int16_t sun_q14[3];     /* unit vector towards the sun */
+    bool lamp;              /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
+    int32_t lamp_q8[3];
     bool walls;             /* draw the block's sides, down to its base */
     int32_t water_q8;       /* water level, or YB_NO_WATER */
     const yb_shadow_t *shadow; /* cast by yb_shadow_cast, or NULL: nothing casts shadows */
@@ -427,7 +429,7 @@ void yb_view_walk(yb_view_t *view, const yb_map_t *map, uint16_t x_q8, uint16_t 
 /* Light from an azimuth (clockwise from north) and an elevation above the horizon. */
 void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 
-/* Casts the shadows of a map as a view's sun, vertical scale and water make them: once, for all
+/* Casts the shadows of a map as a view's sun (not its lamp), vertical scale and water make them: once, for all
  * frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free afterwards.
  * A point is in shadow if the surface, refined to four cells, hides the sun; frames blend from cell
  * to cell. Cost: see scripts/bench instructions.
@@ -541,7 +543,7 @@ typedef struct {
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
     int32_t tone_q16;               /* hues per height unit */
     int32_t haze_near, haze_q16;    /* 1/depth where haze begins; 256 over that */
-    bool even_water;                /* no shadows or haze on it: it need not be split */
+    bool even_water;                /* nothing shades it: it need not be split */
     bool lines;                     /* there may be any on the ground */
     int32_t contour_low;            /* a contour line's height below all of them, … */
     uint32_t contour_inverse;       /* … and 2^20 over their interval */
