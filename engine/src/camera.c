@@ -48,8 +48,7 @@ void yb_view_fly(yb_view_t *view, const yb_map_t *map, const int32_t eye_q8[3],
     int32_t x = view->eye_q8[0];
     int32_t y = view->eye_q8[1];
     if (x >= 0 && y >= 0 && x <= map->east_q8 && y <= map->north_q8) {
-        int32_t floor =
-            fix_max(yb_map_height(map, (uint16_t)x, (uint16_t)y), view->water_q8);
+        int32_t floor = fix_max(yb_map_height(map, (uint16_t)x, (uint16_t)y), view->water_q8);
         floor = (int32_t)(((int64_t)floor * view->exaggerate_q8) >> 8);
         clearance_q8 = fix_clamp(clearance_q8, 0, FAR_Q8);
         view->eye_q8[2] = fix_max(view->eye_q8[2], fix_min(floor, FAR_Q8) + clearance_q8);

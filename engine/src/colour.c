@@ -48,8 +48,8 @@ void colour_begin(yb_frame_t *frame)
     frame->tone_q16 = (int32_t)(((uint32_t)HUES << 16) / (uint32_t)relief);
     frame->haze_near = 0;
     if (frame->view.haze_q8 > 0)
-        frame->haze_near = camera_near(
-            frame, fix_max(frame->view.haze_q8 >> frame->eye_shift, frame->near));
+        frame->haze_near =
+            camera_near(frame, fix_max(frame->view.haze_q8 >> frame->eye_shift, frame->near));
     frame->haze_q16 = frame->haze_near > 0 ? ((int32_t)256 << 16) / frame->haze_near : 0;
 }
 

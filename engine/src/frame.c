@@ -56,8 +56,8 @@ static int32_t farthest_stray(yb_frame_t *frame)
     return fix_max(farthest, frame->view.water_q8 - fix_min(map->low_q8, frame->view.water_q8));
 }
 
-/* The contour line below all that shade_cut asks for: heights, less a quarter of a triangle's. Above
- * it all of them are below 2^21.
+/* The contour line below all that shade_cut asks for: heights, less a quarter of a triangle's.
+ * Above it all of them are below 2^21.
  */
 static void begin_lines(yb_frame_t *frame, int32_t stray)
 {

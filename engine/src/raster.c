@@ -84,10 +84,11 @@ static int32_t ratio_q18(int32_t a, int32_t b)
     return a < 0 ? -(int32_t)q : (int32_t)q;
 }
 
-/* Change of 1/depth, or of another value, per pixel, 14 fractional bits, along x and y. Differences are scaled down until
- * they have 13 bits: 1/depth has 16, so each sum of two products is below 2^30. Accuracy is only
- * needed for hiding, and a pixel's value is cut to 16 bits in the end. A sliver seen so edge-on
- * that its gradient must be cut would get depths far from its own: it is taken as flat.
+/* Change of 1/depth, or of another value, per pixel, 14 fractional bits, along x and y. Differences
+ * are scaled down until they have 13 bits: 1/depth has 16, so each sum of two products is below
+ * 2^30. Accuracy is only needed for hiding, and a pixel's value is cut to 16 bits in the end. A
+ * sliver seen so edge-on that its gradient must be cut would get depths far from its own: it is
+ * taken as flat.
  */
 static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], int32_t *along_x,
                           int32_t *along_y)
@@ -165,10 +166,10 @@ static void plane_start(plane_t *plane, const yb_spot_t *const p[3], const int32
     int32_t x0 = raster_pixel(p[0]->x_q4);
     int32_t y0 = raster_pixel(p[0]->y_q4);
     plane->at_q14 = ((uint32_t)value[0] << 14) + ((uint32_t)1 << 13) +
-                      (uint32_t)(plane->along_x >> 4) * (uint32_t)(x0 * 16 + 8 - p[0]->x_q4) +
-                      (uint32_t)(plane->along_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0]->y_q4) -
-                      (uint32_t)plane->along_x * (uint32_t)x0 +
-                      (uint32_t)plane->along_y * (uint32_t)(y - y0);
+                    (uint32_t)(plane->along_x >> 4) * (uint32_t)(x0 * 16 + 8 - p[0]->x_q4) +
+                    (uint32_t)(plane->along_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0]->y_q4) -
+                    (uint32_t)plane->along_x * (uint32_t)x0 +
+                    (uint32_t)plane->along_y * (uint32_t)(y - y0);
 }
 
 static inline uint16_t depth_of(uint32_t near_q14)
@@ -252,7 +253,10 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
         value += (uint32_t)cutter->plane.along_x;
         if (depth_of(near) > depth[x]) {
             depth[x] = depth_of(near);
-            put_pixel(raster, row, x, fix_abs(off) <= cutter->half ? line : off < 0 ? below : above);
+            put_pixel(raster, row, x,
+                      fix_abs(off) <= cutter->half ? line
+                      : off < 0                    ? below
+                                                   : above);
         }
     }
 }

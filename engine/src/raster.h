@@ -86,8 +86,9 @@ static inline raster_look_t raster_look(const raster_t *raster, const yb_spot_t 
 }
 
 /* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, or as
- * the cut says, where it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
- * edge: pixels along the common edge of two triangles are drawn once, none is left out.
+ * the cut says, where it is nearer than what is there. A pixel is covered if its centre is inside,
+ * or on a top or left edge: pixels along the common edge of two triangles are drawn once, none is
+ * left out.
  */
 void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
                  raster_look_t look, uint16_t pixel);

@@ -80,8 +80,7 @@ static int32_t lambert(const normal_t *n, const int16_t light[3])
 }
 
 /* Where the light comes from at a point of the map: the sun, or a lamp not far away. */
-static void find_light(const yb_frame_t *frame, uint32_t place, int32_t raised_q8,
-                       int16_t light[3])
+static void find_light(const yb_frame_t *frame, uint32_t place, int32_t raised_q8, int16_t light[3])
 {
     const yb_view_t *view = &frame->view;
     for (int i = 0; i < 3; i++)

@@ -13,8 +13,8 @@ enum {
 
 static int32_t lit_at(const yb_shadow_t *shadow, int32_t i, int32_t j)
 {
-    int32_t at = fix_clamp(j, 0, shadow->rows - 1) * shadow->side +
-                 fix_clamp(i, 0, shadow->columns - 1);
+    int32_t at =
+        fix_clamp(j, 0, shadow->rows - 1) * shadow->side + fix_clamp(i, 0, shadow->columns - 1);
     return shadow->lit[at >> 3] >> (at & 7) & 1;
 }
 
@@ -63,7 +63,8 @@ static cells_t cells_within(const field_t *field, uint16_t a, uint16_t b, uint16
 }
 
 /* How near a place is to each corner of a triangle: twice the area that it makes with the opposite
- * side, and what a cell further east or north adds. Places are in 1/16 step, 12 bits: areas have 25.
+ * side, and what a cell further east or north adds. Places are in 1/16 step, 12 bits: areas
+ * have 25.
  */
 typedef struct {
     int32_t at[3], east[3], north[3];
@@ -113,9 +114,9 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
                 /* Heights differ by less than 2^20: 2^28. */
                 int32_t of_a = (to_a >> spare) * inverse >> 15;
                 int32_t of_b = (to_b >> spare) * inverse >> 15;
-                height[i] = height_of(field, c->z_q8 + (((a->z_q8 - c->z_q8) * of_a +
-                                                         (b->z_q8 - c->z_q8) * of_b) >>
-                                                        8));
+                height[i] = height_of(
+                    field,
+                    c->z_q8 + (((a->z_q8 - c->z_q8) * of_a + (b->z_q8 - c->z_q8) * of_b) >> 8));
             }
             to_a += row.east[0];
             to_b += row.east[1];

@@ -1,8 +1,8 @@
 /* The surface by itself, without a camera: refined to an even length, or asked for one height. */
+#include "surface.h"
 #include "fix.h"
 #include "relief.h"
 #include "split.h"
-#include "surface.h"
 
 const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
     {{SPLIT_END}},

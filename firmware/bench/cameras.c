@@ -1,5 +1,5 @@
-/* Draws the map in the slot from many places, at 128 x 64 in bands of 8 rows, so that the worst frame
- * and the worst band can be found. The console is as bench.c's; the regions of camera N are
+/* Draws the map in the slot from many places, at 128 x 64 in bands of 8 rows, so that the worst
+ * frame and the worst band can be found. The console is as bench.c's; the regions of camera N are
  *
  *     begin N                preparing its frame
  *     band N * 64 + ROW      a band

@@ -95,7 +95,8 @@ static int help(void)
           "\n",
           stdout);
     fputs(cli_part_help, stdout);
-    fputs("\nView of --refined (--no-detail is for any mesh; --format, --band, --palette, --contours,\n"
+    fputs("\nView of --refined (--no-detail is for any mesh; --format, --band, --palette, "
+          "--contours,\n"
           "--shadows, --haze, --sun and --lamp do not apply):\n",
           stdout);
     fputs(yb_view_options_help, stdout);
@@ -124,9 +125,8 @@ static bool write_mesh(const request_t *request, yb_map_t *map, yb_error_t *erro
     yb_view_t view;
     if (!yb_view_options_apply(&request->view, map, &view, error))
         return false;
-    bool good = (request->refined
-                     ? yb_mesh_from_frame(&mesh, map, &view, &request->view.screen)
-                     : yb_mesh_from_map(&mesh, map, longest_q8(request, map))) ||
+    bool good = (request->refined ? yb_mesh_from_frame(&mesh, map, &view, &request->view.screen)
+                                  : yb_mesh_from_map(&mesh, map, longest_q8(request, map))) ||
                 yb_error_set(error, "not enough memory for %s", request->output);
     good = good && yb_obj_file_write(request->output, request->force, &mesh, error);
     yb_mesh_free(&mesh);

@@ -166,8 +166,7 @@ static int run(const request_t *request)
     if (!yb_view_options_apply(&request->view, &file->map, &view, &error))
         status = cli_fail("%s", error.text);
     else if (!yb_still_draw(&still, &file->map, &view, &request->view.screen,
-                            request->view.band_rows,
-                            (uint16_t)request->view.shadows))
+                            request->view.band_rows, (uint16_t)request->view.shadows))
         status = cli_fail("not enough memory to draw %s", request->input);
     else
         status = show(request, &still);

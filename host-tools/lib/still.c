@@ -81,32 +81,30 @@ uint32_t yb_still_hash(const yb_still_t *still)
 
 static json_t *view_json(const yb_view_t *view)
 {
-    json_t *lamp = view->lamp ? json_pack("[iii]", view->lamp_q8[0], view->lamp_q8[1],
-                                          view->lamp_q8[2])
-                              : json_null();
+    json_t *lamp = view->lamp
+                       ? json_pack("[iii]", view->lamp_q8[0], view->lamp_q8[1], view->lamp_q8[2])
+                       : json_null();
     json_t *water = view->water_q8 == YB_NO_WATER ? json_null() : json_integer(view->water_q8);
-    return json_pack("{s:[iii], s:[iii], s:i, s:i, s:i, s:i, s:[iii], s:o, s:b, s:o, s:i, s:i, s:s, "
-                     "s:i, s:I}",
-                     "eye_q8",
-                     view->eye_q8[0], view->eye_q8[1], view->eye_q8[2], "look_q8", view->look_q8[0],
-                     view->look_q8[1], view->look_q8[2], "azimuth_bam", view->azimuth_bam,
-                     "zoom_q12", view->zoom_q12, "exaggerate_q8", view->exaggerate_q8, "edge_q4",
-                     view->edge_q4, "sun_q14", view->sun_q14[0], view->sun_q14[1], view->sun_q14[2],
-                     "lamp_q8", lamp, "walls", view->walls, "water_q8", water, "contour_q8", view->contour_q8,
-                     "contour_at_q8", view->contour_at_q8, "palette",
-                     yb_palette_names[view->palette], "haze_q8", view->haze_q8, "max_leaves",
-                     (json_int_t)view->max_leaves);
+    return json_pack(
+        "{s:[iii], s:[iii], s:i, s:i, s:i, s:i, s:[iii], s:o, s:b, s:o, s:i, s:i, s:s, "
+        "s:i, s:I}",
+        "eye_q8", view->eye_q8[0], view->eye_q8[1], view->eye_q8[2], "look_q8", view->look_q8[0],
+        view->look_q8[1], view->look_q8[2], "azimuth_bam", view->azimuth_bam, "zoom_q12",
+        view->zoom_q12, "exaggerate_q8", view->exaggerate_q8, "edge_q4", view->edge_q4, "sun_q14",
+        view->sun_q14[0], view->sun_q14[1], view->sun_q14[2], "lamp_q8", lamp, "walls", view->walls,
+        "water_q8", water, "contour_q8", view->contour_q8, "contour_at_q8", view->contour_at_q8,
+        "palette", yb_palette_names[view->palette], "haze_q8", view->haze_q8, "max_leaves",
+        (json_int_t)view->max_leaves);
 }
 
 json_t *yb_still_json(const yb_still_t *still)
 {
     char hash[9];
     snprintf(hash, sizeof(hash), "%08" PRIx32, yb_still_hash(still));
-    return json_pack("{s:o, s:{s:i, s:i, s:s}, s:{s:I, s:I, s:I}, s:i, s:s}", "view",
-                     view_json(&still->view), "screen", "width", still->screen.width, "height",
-                     still->screen.height, "format",
-                     yb_format_names[still->screen.format], "stats", "refined",
-                     (json_int_t)still->stats.refined, "drawn", (json_int_t)still->stats.drawn,
-                     "depth_limited", (json_int_t)still->stats.depth_limited, "shadow_side",
-                     still->shadow_side, "fnv1a", hash);
+    return json_pack(
+        "{s:o, s:{s:i, s:i, s:s}, s:{s:I, s:I, s:I}, s:i, s:s}", "view", view_json(&still->view),
+        "screen", "width", still->screen.width, "height", still->screen.height, "format",
+        yb_format_names[still->screen.format], "stats", "refined", (json_int_t)still->stats.refined,
+        "drawn", (json_int_t)still->stats.drawn, "depth_limited",
+        (json_int_t)still->stats.depth_limited, "shadow_side", still->shadow_side, "fnv1a", hash);
 }

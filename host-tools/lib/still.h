@@ -25,9 +25,9 @@ void yb_still_free(yb_still_t *still);
 uint32_t yb_still_hash(const yb_still_t *still);
 
 /* The still in the engine's own units, so that a firmware can repeat and check it:
- *   {"view": every field of yb_view_t but the shadow, "screen": of yb_screen_t, "stats": of yb_stats_t,
- *    "shadow_side": cells or 0, "fnv1a": the hash as eight hexadecimal digits}
- * water_q8 and lamp_q8 are null when there is none. A new reference; NULL: no memory.
+ *   {"view": every field of yb_view_t but the shadow, "screen": of yb_screen_t, "stats": of
+ * yb_stats_t, "shadow_side": cells or 0, "fnv1a": the hash as eight hexadecimal digits} water_q8
+ * and lamp_q8 are null when there is none. A new reference; NULL: no memory.
  */
 json_t *yb_still_json(const yb_still_t *still);
 

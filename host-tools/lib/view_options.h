@@ -101,8 +101,8 @@ extern const char yb_view_options_help[];
 typedef struct {
     uint32_t given;
     yb_screen_t screen;
-    uint16_t band_rows; /* 0: all at once */
-    int standard_view;  /* a yb_standard_view_t, if --view was given */
+    uint16_t band_rows;         /* 0: all at once */
+    int standard_view;          /* a yb_standard_view_t, if --view was given */
     double eye_m[3], look_m[3]; /* eye: of --walk and --fly too */
     double height_m;            /* above the ground */
     double tilt_deg;

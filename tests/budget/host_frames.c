@@ -2,7 +2,8 @@
  *
  *     host_frames WIDTHxHEIGHT EDGE_Q4 MAP.yb ...
  *
- * prints the mean time of a frame over the maps, in microseconds, and the mean number of triangles drawn.
+ * prints the mean time of a frame over the maps, in microseconds, and the mean number of triangles
+ * drawn.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>

@@ -71,7 +71,7 @@ static const struct {
     void (*set)(yb_view_t *view, const yb_map_t *map);
 } views[GOLDEN_VIEWS] = {
     {"orbit", from_north_west}, {"above", from_far_above}, {"down", straight_down},
-    {"flood", flooded},         {"foot", on_foot},        {"lines", with_lines},
+    {"flood", flooded},         {"foot", on_foot},         {"lines", with_lines},
     {"dusk", at_dusk},          {"ink", in_ink},
 };
 

@@ -291,8 +291,8 @@ static void an_eye_keeps_off_the_ground(void **state)
         const int32_t height = rng_range(&rng, 0, 2000);
         const uint16_t azimuth = (uint16_t)rng_range(&rng, 0, 65535);
         const int16_t tilt = (int16_t)rng_range(&rng, -16384, 16384);
-        const bool above = eye[0] >= 0 && eye[1] >= 0 && eye[0] <= map.east_q8 &&
-                           eye[1] <= map.north_q8;
+        const bool above =
+            eye[0] >= 0 && eye[1] >= 0 && eye[0] <= map.east_q8 && eye[1] <= map.north_q8;
         yb_view_fly(&view, &map, eye, height, azimuth, tilt);
         assert_int_equal(view.eye_q8[0], eye[0]);
         assert_int_equal(view.eye_q8[1], eye[1]);

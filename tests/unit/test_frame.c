@@ -33,10 +33,8 @@ static void load_plan(const plan_t *plan)
 
 static const yb_screen_t *random_scene(rng_t *rng, int round, yb_view_t *view)
 {
-    static const yb_screen_t screens[] = {{128, 64, YB_GREY4},
-                                          {160, 120, YB_RGB565},
-                                          {90, 160, YB_MONO},
-                                          {WIDTH, HEIGHT, YB_RGB565}};
+    static const yb_screen_t screens[] = {
+        {128, 64, YB_GREY4}, {160, 120, YB_RGB565}, {90, 160, YB_MONO}, {WIDTH, HEIGHT, YB_RGB565}};
     if (round % 8 == 0) {
         plan_t plan;
         random_fitting_plan(&plan, rng);
@@ -352,8 +350,8 @@ static void expect_leaf(void *context, const yb_point_t *const p[3])
     uint32_t *next = context;
     const raster_t whole_screen = {.screen = &frame.screen, .end_row = frame.screen.height};
     raster_look_t look = raster_look(&whole_screen, &p[0]->spot, &p[1]->spot, &p[2]->spot);
-    uint32_t sum = sum_of(p[0]->place, p[1]->place, p[2]->place,
-                          p[0]->top_q8 + p[1]->top_q8 + p[2]->top_q8);
+    uint32_t sum =
+        sum_of(p[0]->place, p[1]->place, p[2]->place, p[0]->top_q8 + p[1]->top_q8 + p[2]->top_q8);
     if (look == RASTER_NOTHING)
         return;
     bool is_next = *next < handed_count && handed[*next] == sum;
@@ -539,8 +537,8 @@ static void water_hides_what_is_under_it(void **state)
             int pixel = whole[2 * i] << 8 | whole[2 * i + 1];
             if (pixel == colour_sky(&frame, i / WIDTH))
                 continue;
-            CHECK(water < 0 || pixel == water, "view %d: the water has two colours, %x and %x", round,
-                  (unsigned)water, (unsigned)pixel);
+            CHECK(water < 0 || pixel == water, "view %d: the water has two colours, %x and %x",
+                  round, (unsigned)water, (unsigned)pixel);
             water = pixel;
         }
         wet += water >= 0;

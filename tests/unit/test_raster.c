@@ -371,7 +371,8 @@ static void huge_triangles_fit(void **state)
     }
 }
 
-/* A value that is linear on a triangle, at a pixel's centre, and how it changes from pixel to pixel.
+/* A value that is linear on a triangle, at a pixel's centre, and how it changes from pixel to
+ * pixel.
  */
 typedef struct {
     double at, along_x, along_y;

@@ -135,8 +135,8 @@ static void a_lamp_shines_from_its_place(void **state)
         random_triangle(&rng, p);
         const int32_t way[3] = {rng_range(&rng, -9000, 9000), rng_range(&rng, -9000, 9000),
                                 rng_range(&rng, 100, 9000)};
-        const double length = sqrt((double)way[0] * way[0] + (double)way[1] * way[1] +
-                                   (double)way[2] * way[2]);
+        const double length =
+            sqrt((double)way[0] * way[0] + (double)way[1] * way[1] + (double)way[2] * way[2]);
         const int32_t at[3] = {(int32_t)(p[0].place & 0xffff), (int32_t)(p[0].place >> 16),
                                p[0].top_q8};
         for (int i = 0; i < 3; i++) {
@@ -242,7 +242,8 @@ static void the_sky_has_no_steps(void **state)
     view.look_q8[2] = view.eye_q8[2]; /* the horizon in the middle */
     begin(YB_RGB565);
     for (int row = 4; row < 64; row++)
-        assert_true(abs(sum_of(colour_sky(&frame, row)) - sum_of(colour_sky(&frame, row - 4))) <= 24);
+        assert_true(abs(sum_of(colour_sky(&frame, row)) - sum_of(colour_sky(&frame, row - 4))) <=
+                    24);
     assert_true(sum_of(colour_sky(&frame, 0)) + 20 < sum_of(colour_sky(&frame, 63)));
     begin(YB_MONO);
     assert_int_equal(colour_sky(&frame, 0), 0);

@@ -388,23 +388,23 @@ typedef struct {
     uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than a
                              * sixteenth of the screen's width */
     int16_t sun_q14[3];     /* unit vector towards the sun */
-    bool lamp;              /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
+    bool lamp; /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
     int32_t lamp_q8[3];
-    bool walls;             /* draw the block's sides, down to its base */
-    int32_t water_q8;       /* water level, or YB_NO_WATER */
+    bool walls;                /* draw the block's sides, down to its base */
+    int32_t water_q8;          /* water level, or YB_NO_WATER */
     const yb_shadow_t *shadow; /* cast by yb_shadow_cast, or NULL: nothing casts shadows */
-    int32_t contour_q8;     /* interval of the lines drawn on the relief; 0: none */
-    int32_t contour_at_q8;  /* the height of one of them */
+    int32_t contour_q8;        /* interval of the lines drawn on the relief; 0: none */
+    int32_t contour_at_q8;     /* the height of one of them */
     yb_palette_t palette;
-    int32_t haze_q8;        /* distance from the eye at which haze begins, twice as far it is half
-                             * of what is seen; 0: the air is clear */
-    uint32_t max_leaves;    /* at most so many leaves of the ground in a frame, or as many as the
-                             * mesh has triangles; 0: no bound */
+    int32_t haze_q8;     /* distance from the eye at which haze begins, twice as far it is half
+                          * of what is seen; 0: the air is clear */
+    uint32_t max_leaves; /* at most so many leaves of the ground in a frame, or as many as the
+                          * mesh has triangles; 0: no bound */
 } yb_view_t;
 
 /* The standard: 50 degrees across, true scale, edges up to a sixteenth of the screen's width, sun
- * in the north-west 30 degrees high, walls, no water, no shadows, no lines, clear air, natural colours, no bound; eye and look as by yb_view_orbit
- * south of the map.
+ * in the north-west 30 degrees high, walls, no water, no shadows, no lines, clear air, natural
+ * colours, no bound; eye and look as by yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
 
@@ -429,10 +429,10 @@ void yb_view_walk(yb_view_t *view, const yb_map_t *map, uint16_t x_q8, uint16_t 
 /* Light from an azimuth (clockwise from north) and an elevation above the horizon. */
 void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 
-/* Casts the shadows of a map as a view's sun (not its lamp), vertical scale and water make them: once, for all
- * frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free afterwards.
- * A point is in shadow if the surface, refined to four cells, hides the sun; frames blend from cell
- * to cell. Cost: see scripts/bench instructions.
+/* Casts the shadows of a map as a view's sun (not its lamp), vertical scale and water make them:
+ * once, for all frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free
+ * afterwards. A point is in shadow if the surface, refined to four cells, hides the sun; frames
+ * blend from cell to cell. Cost: see scripts/bench instructions.
  */
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work);
 
@@ -443,7 +443,7 @@ int16_t yb_cos_q14(uint16_t angle_bam);
 /* --- The frame -------------------------------------------------------------------------------- */
 
 typedef enum {
-    YB_GREY4, /* 16 greys, two pixels a byte, the left one in the high nibble */
+    YB_GREY4,  /* 16 greys, two pixels a byte, the left one in the high nibble */
     YB_RGB565, /* 16 bits, high byte first, as most panels take them */
     YB_MONO    /* lit or not, eight pixels a byte, the leftmost in the highest bit: shades by
                 * ordered dithering, four by four */
@@ -458,8 +458,9 @@ typedef struct {
 static inline size_t yb_screen_pitch(const yb_screen_t *screen)
 {
     size_t width = screen->width;
-    return screen->format == YB_GREY4 ? width / 2 : screen->format == YB_MONO ? (width + 7) / 8
-                                                                              : width * 2;
+    return screen->format == YB_GREY4  ? width / 2
+           : screen->format == YB_MONO ? (width + 7) / 8
+                                       : width * 2;
 }
 
 /* Some rows of the screen, and where to draw them. */
@@ -541,10 +542,10 @@ typedef struct {
     int32_t focal_q4;    /* pixels */
     uint32_t longest;    /* an edge is split while length * 1/depth is above it */
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
-    int32_t tone_q16;               /* hues per height unit */
-    int32_t haze_near, haze_q16;    /* 1/depth where haze begins; 256 over that */
-    bool even_water;                /* nothing shades it: it need not be split */
-    bool lines;                     /* there may be any on the ground */
+    int32_t tone_q16;                             /* hues per height unit */
+    int32_t haze_near, haze_q16;                  /* 1/depth where haze begins; 256 over that */
+    bool even_water;                              /* nothing shades it: it need not be split */
+    bool lines;                                   /* there may be any on the ground */
     int32_t contour_low;            /* a contour line's height below all of them, … */
     uint32_t contour_inverse;       /* … and 2^20 over their interval */
     uint8_t row_shift;              /* rows are binned by so many bits: at most 16 bins */

@@ -107,10 +107,9 @@ static void json_has_every_field(void **state)
 {
     (void)state;
     static const char *const view_fields[] = {
-        "eye_q8",  "look_q8", "azimuth_bam", "zoom_q12", "exaggerate_q8",
-        "edge_q4", "sun_q14", "walls",       "water_q8", "max_leaves",
-        "palette", "haze_q8", "contour_q8",  "contour_at_q8",
-        "lamp_q8"};
+        "eye_q8",  "look_q8", "azimuth_bam", "zoom_q12",      "exaggerate_q8",
+        "edge_q4", "sun_q14", "walls",       "water_q8",      "max_leaves",
+        "palette", "haze_q8", "contour_q8",  "contour_at_q8", "lamp_q8"};
     yb_code_file_t *file = code_hill();
     const yb_screen_t screen = {.width = 64, .height = 32, .format = YB_GREY4};
     yb_view_t view;

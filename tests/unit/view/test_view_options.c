@@ -258,10 +258,14 @@ static void far_places_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(metres_become_steps),        cmocka_unit_test(angles_are_rounded_once),
-        cmocka_unit_test(screen_and_detail),          cmocka_unit_test(panel),
-        cmocka_unit_test(contradictions_are_refused), cmocka_unit_test(far_places_are_refused),
-        cmocka_unit_test(looks),                      cmocka_unit_test(on_foot_and_in_the_air),
+        cmocka_unit_test(metres_become_steps),
+        cmocka_unit_test(angles_are_rounded_once),
+        cmocka_unit_test(screen_and_detail),
+        cmocka_unit_test(panel),
+        cmocka_unit_test(contradictions_are_refused),
+        cmocka_unit_test(far_places_are_refused),
+        cmocka_unit_test(looks),
+        cmocka_unit_test(on_foot_and_in_the_air),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
