@@ -37,9 +37,10 @@ int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
 
 typedef struct {
     uint8_t *height; /* of the middles of the cells */
-    int32_t side, shift;
-    int32_t low_q8, scale_shift; /* height = (z - low) >> scale_shift */
-    int32_t water_q8;
+    int32_t side;
+    int shift;       /* of a cell's width */
+    int scale_shift; /* height = (z - low) >> scale_shift */
+    int32_t low_q8, water_q8;
 } field_t;
 
 static uint8_t height_of(const field_t *field, int32_t z_q8)
@@ -210,16 +211,17 @@ void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *sha
     int32_t ahead = along_x ? sun[0] : sun[1];
     int32_t aside = along_x ? sun[1] : sun[0];
     int32_t size = fix_abs(ahead);
-    bool high = sun[2] > 0 && sun[2] >> 6 >= size; /* 89 degrees: nothing casts a shadow */
+    int32_t up = sun[2];
+    bool high = up > 0 && up >> 6 >= size; /* 89 degrees: nothing casts a shadow */
     shadow->columns = cells_of(shadow, map->east_q8);
     shadow->rows = cells_of(shadow, map->north_q8);
     memset(shadow->lit, high ? 0xff : 0, YB_SHADOW_BYTES(shadow->side));
-    if (high || sun[2] <= 0)
+    if (high || up <= 0)
         return;
     find_heights(map, view, shadow, &field);
     /* A cell is at most 2^12 wide, the sine below 2^6 times the cosine: 2^18, and as much again by
      * the scale. */
-    int32_t drop_q8 = ((sun[2] << 6) / size << field.shift) >> 6;
+    int32_t drop_q8 = ((up << 6) / size << field.shift) >> 6;
     int32_t scale = fix_max(view->exaggerate_q8, 1);
     drop_q8 = fix_min(drop_q8, ((int32_t)1 << 23) - 1) * 256 / scale;
     ray_t ray = {.aside_q8 = aside * 256 / size,
