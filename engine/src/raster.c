@@ -249,7 +249,17 @@ void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)
 {
-    raster_look_t look = raster_look(raster, a, b, c);
+    if (a->near == 0 || b->near == 0 || c->near == 0)
+        return RASTER_BEYOND;
+    int32_t top = raster->first_row * 16 + 8;
+    int32_t bottom = raster->end_row * 16 - 8;
+    int32_t right = raster->screen->width * 16 - 8;
+    if ((a->y_q4 <= top && b->y_q4 <= top && c->y_q4 <= top) ||
+        (a->y_q4 > bottom && b->y_q4 > bottom && c->y_q4 > bottom) ||
+        (a->x_q4 <= 8 && b->x_q4 <= 8 && c->x_q4 <= 8) ||
+        (a->x_q4 > right && b->x_q4 > right && c->x_q4 > right))
+        return RASTER_NOTHING;
+    raster_look_t look = raster_front(a, b, c);
     if (look == RASTER_FRONT || look == RASTER_SMALL)
         raster_fill(raster, a, b, c, look, pixel);
     return look;
