@@ -71,38 +71,55 @@ static void depth_gradient(const yb_spot_t *const p[3], int32_t *along_x, int32_
 
 /* --- Edges ------------------------------------------------------------------------------------ */
 
-/* Where an edge crosses a row of pixels: the first whose centre is on the edge or right of it. It
- * goes with the edge from row to row, in whole pixels: no division, and exact. Both triangles at an
- * edge come to the same pixel, which is where the one ends and the other begins.
+enum {
+    CHUNK = 16 /* rows of a triangle that are drawn at once */
+};
+
+/* Of each row, the first pixel on its left side or right of it, and that of its right side: the
+ * first that is not drawn any more.
  */
 typedef struct {
-    raster_area_t side;         /* of the pixel x: 0 <= side < across once edge_settle is done */
-    raster_area_t across, down; /* what a step right adds, and a step down takes off */
-    int32_t x;
-} edge_t;
+    int16_t left[CHUNK], right[CHUNK];
+} chunk_t;
 
-static inline void edge_settle(edge_t *edge)
+/* Where an edge of a triangle crosses the rows from first up to end: the first pixel whose centre
+ * is on the edge or right of it. It goes with the edge from row to row, in whole pixels: no
+ * division, and exact. Both triangles at an edge come to the same pixel, which is where the one
+ * ends and the other begins. Counter-clockwise, an edge down is on the left.
+ */
+static void trace(const yb_spot_t *a, const yb_spot_t *b, int32_t first, int32_t end,
+                  chunk_t *chunk)
 {
-    while (edge->side < 0) {
-        edge->side += edge->across;
-        edge->x++;
+    int16_t *to = chunk->left;
+    if (a->y_q4 > b->y_q4) {
+        const yb_spot_t *upper = b;
+        b = a;
+        a = upper;
+        to = chunk->right;
     }
-    while (edge->side >= edge->across) {
-        edge->side -= edge->across;
-        edge->x--;
+    int32_t y = fix_max(raster_pixel(a->y_q4), first);
+    int32_t rows = fix_min(raster_pixel(b->y_q4), end) - y;
+    if (rows <= 0)
+        return;
+    to += y - first;
+    int32_t dx = b->x_q4 - a->x_q4;
+    int32_t dy = b->y_q4 - a->y_q4;
+    int32_t x = raster_pixel(a->x_q4);
+    /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
+    raster_area_t side =
+        (raster_area_t)(x * 16 + 8 - a->x_q4) * dy - (raster_area_t)(y * 16 + 8 - a->y_q4) * dx;
+    raster_area_t across = (raster_area_t)dy * 16;
+    raster_area_t down = (raster_area_t)dx * 16;
+    for (;;) {
+        for (; side < 0; side += across)
+            x++;
+        for (; side >= across; side -= across)
+            x--;
+        *to++ = (int16_t)x;
+        if (--rows == 0)
+            return;
+        side -= down;
     }
-}
-
-/* From p down to q, at the row y, which it crosses. */
-static inline void edge_start(edge_t *edge, const yb_spot_t *p, const yb_spot_t *q, int32_t y)
-{
-    int32_t dx = q->x_q4 - p->x_q4;
-    int32_t dy = q->y_q4 - p->y_q4;
-    edge->x = raster_pixel(p->x_q4);
-    edge->side = (raster_area_t)(edge->x * 16 + 8 - p->x_q4) * dy -
-                 (raster_area_t)(y * 16 + 8 - p->y_q4) * dx;
-    edge->across = (raster_area_t)dy * 16;
-    edge->down = (raster_area_t)dx * 16;
 }
 
 /* --- The pixels ------------------------------------------------------------------------------- */
@@ -180,69 +197,66 @@ static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *
     }
 }
 
+/* A triangle's own sides, of the rows from first up to end. */
+static inline void trace_all(const yb_spot_t *const p[3], int32_t first, int32_t end,
+                             chunk_t *chunk)
+{
+    trace(p[0], p[1], first, end, chunk);
+    trace(p[1], p[2], first, end, chunk);
+    trace(p[2], p[0], first, end, chunk);
+}
+
+/* A triangle of any size, on its plane. */
+static void fill_plane(const raster_t *raster, const yb_spot_t *const p[3], int32_t y,
+                       int32_t end_y, uint16_t pixel)
+{
+    int32_t width = raster->screen->width;
+    int32_t line = y - raster->first_row;
+    uint16_t *depth = raster->band->depth + line * width;
+    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
+    plane_t plane;
+    plane_start(&plane, (const yb_spot_t *const[3]){p[0], p[2], p[1]}, y);
+    chunk_t chunk;
+    for (int32_t i = CHUNK; y < end_y; y++, i++) {
+        if (i == CHUNK) {
+            trace_all(p, y, fix_min(y + CHUNK, end_y), &chunk);
+            i = 0;
+        }
+        draw_span(raster, depth, row, fix_max(chunk.left[i], 0), fix_min(chunk.right[i], width),
+                  &plane, pixel);
+        plane.near_q14 += (uint32_t)plane.along_y;
+        depth += width;
+        row += raster->band->pitch;
+    }
+}
+
 void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
                  raster_look_t look, uint16_t pixel)
 {
-    /* Clockwise from the topmost: down the right side by p[1], down the left one by p[2]. One of
-     * them is the lowest. */
-    const yb_spot_t *p[3] = {a, c, b};
-    if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
-        p[0] = b;
-        p[1] = a;
-        p[2] = c;
-    } else if (c->y_q4 < a->y_q4) {
-        p[0] = c;
-        p[1] = b;
-        p[2] = a;
+    const yb_spot_t *const p[3] = {a, b, c};
+    int32_t top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
+    int32_t bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
+    int32_t y = fix_max(raster_pixel(top), raster->first_row);
+    int32_t end_y = fix_min(raster_pixel(bottom), raster->end_row);
+    if (look == RASTER_FRONT) {
+        fill_plane(raster, p, y, end_y, pixel);
+        return;
     }
-    int32_t y = fix_max(raster_pixel(p[0]->y_q4), raster->first_row);
-    int32_t right_turn = raster_pixel(p[1]->y_q4);
-    int32_t left_turn = raster_pixel(p[2]->y_q4);
-    int32_t end_y = fix_min(fix_max(right_turn, left_turn), raster->end_row);
-    plane_t plane = {0, 0, 0};
+    chunk_t chunk;
+    trace_all(p, y, end_y, &chunk);
     /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
-    uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
+    uint32_t sum = (uint32_t)(a->near + b->near + c->near) + 1;
     uint16_t near = (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
-    if (look == RASTER_FRONT)
-        plane_start(&plane, p, y);
+    int32_t width = raster->screen->width;
     int32_t line = y - raster->first_row;
-    uint16_t *depth = raster->band->depth + line * raster->screen->width;
-    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
-    /* Each side starts here; where it turns it starts again with the other edge. */
-    bool right_second = right_turn <= y;
-    bool left_second = left_turn <= y;
-    int32_t right_start = y;
-    int32_t left_start = y;
-    edge_t left = {0, 0, 0, 0};
-    edge_t right = {0, 0, 0, 0};
-    for (;;) {
-        if (y == right_start) {
-            edge_start(&right, right_second ? p[1] : p[0], right_second ? p[2] : p[1], y);
-            right_start = right_turn;
-            right_second = true;
-        } else {
-            right.side -= right.down;
-        }
-        edge_settle(&right);
-        if (y == left_start) {
-            edge_start(&left, left_second ? p[2] : p[0], left_second ? p[1] : p[2], y);
-            left_start = left_turn;
-            left_second = true;
-        } else {
-            left.side -= left.down;
-        }
-        edge_settle(&left);
-        int32_t x = fix_max(left.x, 0);
-        int32_t end = fix_min(right.x, raster->screen->width);
-        if (look != RASTER_FRONT)
-            draw_level(raster, depth, row, x, end, near, pixel);
-        else
-            draw_span(raster, depth, row, x, end, &plane, pixel);
-        if (++y >= end_y)
-            return;
-        plane.near_q14 += (uint32_t)plane.along_y;
-        depth += raster->screen->width;
-        row += raster->band->pitch;
+    uint16_t *depth = raster->band->depth + line * width;
+    size_t pitch = raster->band->pitch;
+    uint8_t *row = raster->band->pixels + (size_t)line * pitch;
+    for (int32_t rows = end_y - y, i = 0; i < rows; i++) {
+        draw_level(raster, depth, row, fix_max(chunk.left[i], 0), fix_min(chunk.right[i], width),
+                   near, pixel);
+        depth += width;
+        row += pitch;
     }
 }
 

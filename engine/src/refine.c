@@ -65,6 +65,15 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
     return (fix_max(wide, high) >> 4) * change <= 2 * near ? asked : edge | REFINE_AGAIN;
 }
 
+/* Is an edge of this length left whole, as most are, by its nearer end? */
+static inline bool looks_short(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                               yb_edge_t length)
+{
+    int32_t least = fix_min(a->spot.near, b->spot.near);
+    int32_t most = fix_max(a->spot.near, b->spot.near);
+    return least > 0 && length * (uint32_t)most <= frame->longest;
+}
+
 yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     int32_t dx = relief_dx(a->place, b->place);
@@ -72,8 +81,19 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
-    yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)fix_length(across, along));
+    yb_edge_t edge = (yb_edge_t)fix_length(across, along);
+    if (looks_short(frame, a, b, edge))
+        return edge;
+    edge = refine_ask(frame, a, b, edge);
     return edge < REFINE_ONCE ? edge : edge | (yb_edge_t)(relief_class(dx, dy) + 4) << 16;
+}
+
+/* The edge ab between two midpoints, from a half that is as long. */
+static yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                            yb_edge_t half)
+{
+    return looks_short(frame, a, b, half & 0xffff) ? half & 0xffffff
+                                                   : refine_ask(frame, a, b, half);
 }
 
 /* Each half's mean of two numbers, rounded down. */
@@ -250,16 +270,15 @@ static inline int next_of(int i)
     return i == 2 ? 0 : i + 1;
 }
 
-/* The length class of the longest edge, split or not. */
-static int longest_class(const yb_part_t *part)
+/* The length class of the longest edge that is split. */
+static inline int split_class(const yb_part_t *part)
 {
-    int class = 0;
+    yb_edge_t class = 0;
     for (int i = 0; i < 3; i++) {
-        uint32_t a = part->point[i]->place;
-        uint32_t b = part->point[next_of(i)]->place;
-        class = (int)fix_max(class, relief_class(relief_dx(a, b), relief_dy(a, b)));
+        yb_edge_t edge = part->edge[i];
+        class = edge >= REFINE_ONCE && (edge & 0xff0000) > class ? edge & 0xff0000 : class;
     }
-    return class;
+    return refine_class(class);
 }
 
 /* REFINE_ONCE or more if one of a triangle's edges is. */
@@ -280,19 +299,23 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part, int
     const yb_map_t *map = frame->map;
     yb_edge_t longest = 0;
     yb_edge_t whole = 0;
-    yb_edge_t halved = 0;
+    uint32_t square = 0;
     int32_t bulge = 0;
     for (int i = 0; i < 3; i++) {
-        yb_edge_t edge = part->edge[i];
-        yb_edge_t length = edge & 0xffff;
+        const yb_point_t *a = part->point[i];
+        const yb_point_t *b = part->point[next_of(i)];
+        int32_t dx = relief_dx(a->place, b->place);
+        int32_t dy = relief_dy(a->place, b->place);
+        int32_t rise = fix_abs(
+            relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy));
+        uint32_t half = relief_half_square(dx, dy);
+        yb_edge_t length = part->edge[i] & 0xffff;
+        bulge = rise > bulge ? rise : bulge;
+        square = half > square ? half : square;
         longest = length > longest ? length : longest;
-        if (edge < REFINE_ONCE)
-            whole = length > whole ? length : whole;
-        else
-            halved = (edge & 0xff0000) > halved ? edge & 0xff0000 : halved;
-        bulge = fix_max(bulge, fix_abs(bulge_of(part->point[i], part->point[next_of(i)])));
+        whole = part->edge[i] < REFINE_ONCE && length > whole ? length : whole;
     }
-    int class = refine_class(halved);
+    int class = split_class(part);
     int32_t now = (map->noise[class] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
     uint32_t size = (((longest + whole) >> 1) + 1) * (uint32_t)near;
     size += size >> 3;
@@ -304,10 +327,7 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part, int
     int often = 0;
     for (; size > frame->longest && often < 16; size >>= 1)
         often++;
-    if (whole == 0)
-        class = (int)fix_max(class - 4, 0);
-    else
-        class = longest_class(part);
+    class = whole == 0 ? (int)fix_max(class - 4, 0) : relief_square_class(square);
     const relief_bound_t bound = {bulge, class};
     return now + relief_reach(map, &bound, class + 4 - 4 * often);
 }
@@ -341,9 +361,26 @@ static inline uint8_t out_of(const refine_view_t *view, const yb_spot_t *spot)
                      (spot->x_q4 > view->right_q4 ? REFINE_RIGHT : 0));
 }
 
+/* Are three spots that are `beyond` some sides of the view farther away than `spare` from one? */
+static bool farther(const refine_view_t *view, const yb_point_t *const p[3], int beyond,
+                    const spare_t *spare)
+{
+    const yb_spot_t *a = &p[0]->spot;
+    const yb_spot_t *b = &p[1]->spot;
+    const yb_spot_t *c = &p[2]->spot;
+    return ((beyond & REFINE_ABOVE) != 0 &&
+            view->top_q4 - fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4)) > spare->y) ||
+           ((beyond & REFINE_BELOW) != 0 &&
+            fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4)) - view->bottom_q4 > spare->y) ||
+           ((beyond & REFINE_LEFT) != 0 &&
+            view->left_q4 - fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4)) > spare->x) ||
+           ((beyond & REFINE_RIGHT) != 0 &&
+            fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4)) - view->right_q4 > spare->x);
+}
+
 /* Is nothing that a triangle can become in the view? Most lie in it as they are. Of one whose
- * corners are all beyond one side, such a side is enough: is it farther
- * away than any of it can come?
+ * corners are all beyond one side, such a side is enough: is it farther away than any of it can
+ * come?
  */
 static bool part_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part)
 {
@@ -353,22 +390,12 @@ static bool part_misses(const yb_frame_t *frame, const refine_view_t *view, cons
         return refine_misses(frame, view, p, 3, refine_stray(frame, part));
     if (beyond == 0)
         return false;
-    const yb_spot_t *a = &p[0]->spot;
-    const yb_spot_t *b = &p[1]->spot;
-    const yb_spot_t *c = &p[2]->spot;
-    int32_t near = fix_max(a->near, fix_max(b->near, c->near));
-    int32_t stray = refine_stray(frame, part);
+    int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
     spare_t spare;
+    int32_t stray = refine_stray(frame, part);
     if (!find_spare(frame, stray, near, &spare))
         return misses_planes(frame, view, p, 3, stray);
-    return ((beyond & REFINE_ABOVE) != 0 &&
-            view->top_q4 - fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4)) > spare.y) ||
-           ((beyond & REFINE_BELOW) != 0 &&
-            fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4)) - view->bottom_q4 > spare.y) ||
-           ((beyond & REFINE_LEFT) != 0 &&
-            view->left_q4 - fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4)) > spare.x) ||
-           ((beyond & REFINE_RIGHT) != 0 &&
-            fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4)) - view->right_q4 > spare.x);
+    return farther(view, p, beyond, &spare);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
@@ -449,9 +476,9 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     const yb_point_t *o = middle_in(frame, view, &level[2], c, a, ca);
     yb_edge_t co = refine_half(ca);
     /* Half as long as, and parallel to, the edges of the triangle. */
-    yb_edge_t on = refine_ask(frame, o, n, am);
-    yb_edge_t mo = refine_ask(frame, m, o, bn);
-    yb_edge_t mn = refine_ask(frame, m, n, co);
+    yb_edge_t on = inner_edge(frame, o, n, am);
+    yb_edge_t mo = inner_edge(frame, m, o, bn);
+    yb_edge_t mn = inner_edge(frame, m, n, co);
     level[0].rest = (yb_part_t){{m, b, n}, {am, bn, mn}};
     level[1].rest = (yb_part_t){{m, n, o}, {mn, on, mo}};
     level[2].rest = (yb_part_t){{o, n, c}, {on, bn, co}};
@@ -531,7 +558,8 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
     do {
         if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
-        while (edges_of(&part) >= REFINE_ONCE && refine_splits(frame, &part)) {
+        while (edges_of(&part) >= REFINE_ONCE &&
+               (edges_of(&part) < REFINE_ASK || refine_splits(frame, &part))) {
             if (part_misses(frame, view, &part))
                 goto next;
             if (top > last) {
