@@ -228,8 +228,11 @@ static void find_lengths(yb_frame_t *frame, const pose_t *pose)
     frame->across_y = (pose->cos_b * wide) >> 15;
     /* focal * 2 length_q7 / depth > edge, with depth as 65535 near / (1/depth). */
     uint32_t edge_q4 = frame->view.edge_q4;
-    if (edge_q4 == 0) /* a sixteenth of the width, and a little less */
-        edge_q4 = (uint32_t)fix_max(frame->screen.width - (frame->screen.width >> 6), 1);
+    /* About a sixteenth of the width. A smaller screen wants a little less: more of its triangles
+     * meet no pixel's centre. Made for as many on 128 and on 320 pixels. */
+    int32_t width = frame->screen.width;
+    if (edge_q4 == 0)
+        edge_q4 = (uint32_t)fix_max(7 * width / 6 - 23, (width + 1) >> 1);
     uint64_t edge = (uint64_t)edge_q4 * 65535;
     uint64_t longest =
         (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);

@@ -93,16 +93,17 @@ static int32_t ratio_q18(int32_t a, int32_t b)
 static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], int32_t *along_x,
                           int32_t *along_y)
 {
-    int32_t x1 = p[1]->x_q4 - p[0]->x_q4;
-    int32_t y1 = p[1]->y_q4 - p[0]->y_q4;
-    int32_t x2 = p[2]->x_q4 - p[0]->x_q4;
-    int32_t y2 = p[2]->y_q4 - p[0]->y_q4;
+    /* Clockwise on the screen, where y points down: the area is positive. */
+    int32_t x1 = p[2]->x_q4 - p[0]->x_q4;
+    int32_t y1 = p[2]->y_q4 - p[0]->y_q4;
+    int32_t x2 = p[1]->x_q4 - p[0]->x_q4;
+    int32_t y2 = p[1]->y_q4 - p[0]->y_q4;
     uint32_t all = (uint32_t)(fix_abs(x1) | fix_abs(y1) | fix_abs(x2) | fix_abs(y2));
     int shift = 0;
     while (all >> shift >= 1u << 13)
         shift++;
-    int32_t d1 = value[1] - value[0];
-    int32_t d2 = value[2] - value[0];
+    int32_t d1 = value[2] - value[0];
+    int32_t d2 = value[1] - value[0];
     int32_t size = (int32_t)(((raster_area_t)x1 * y2 - (raster_area_t)y1 * x2) >> shift);
     *along_x = *along_y = 0;
     if (size > 0) {
@@ -115,38 +116,55 @@ static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], i
 
 /* --- Edges ------------------------------------------------------------------------------------ */
 
-/* Where an edge crosses a row of pixels: the first whose centre is on the edge or right of it. It
- * goes with the edge from row to row, in whole pixels: no division, and exact. Both triangles at an
- * edge come to the same pixel, which is where the one ends and the other begins.
+enum {
+    CHUNK = 16 /* rows of a triangle that are drawn at once */
+};
+
+/* Of each row, the first pixel on its left side or right of it, and that of its right side: the
+ * first that is not drawn any more.
  */
 typedef struct {
-    raster_area_t side;         /* of the pixel x: 0 <= side < across once edge_settle is done */
-    raster_area_t across, down; /* what a step right adds, and a step down takes off */
-    int32_t x;
-} edge_t;
+    int16_t left[CHUNK], right[CHUNK];
+} chunk_t;
 
-static inline void edge_settle(edge_t *edge)
+/* Where an edge of a triangle crosses the rows from first up to end: the first pixel whose centre
+ * is on the edge or right of it. It goes with the edge from row to row, in whole pixels: no
+ * division, and exact. Both triangles at an edge come to the same pixel, which is where the one
+ * ends and the other begins. Counter-clockwise, an edge down is on the left.
+ */
+static void trace(const yb_spot_t *a, const yb_spot_t *b, int32_t first, int32_t end,
+                  chunk_t *chunk)
 {
-    while (edge->side < 0) {
-        edge->side += edge->across;
-        edge->x++;
+    int16_t *to = chunk->left;
+    if (a->y_q4 > b->y_q4) {
+        const yb_spot_t *upper = b;
+        b = a;
+        a = upper;
+        to = chunk->right;
     }
-    while (edge->side >= edge->across) {
-        edge->side -= edge->across;
-        edge->x--;
+    int32_t y = fix_max(raster_pixel(a->y_q4), first);
+    int32_t rows = fix_min(raster_pixel(b->y_q4), end) - y;
+    if (rows <= 0)
+        return;
+    to += y - first;
+    int32_t dx = b->x_q4 - a->x_q4;
+    int32_t dy = b->y_q4 - a->y_q4;
+    int32_t x = raster_pixel(a->x_q4);
+    /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
+    raster_area_t side =
+        (raster_area_t)(x * 16 + 8 - a->x_q4) * dy - (raster_area_t)(y * 16 + 8 - a->y_q4) * dx;
+    raster_area_t across = (raster_area_t)dy * 16;
+    raster_area_t down = (raster_area_t)dx * 16;
+    for (;;) {
+        for (; side < 0; side += across)
+            x++;
+        for (; side >= across; side -= across)
+            x--;
+        *to++ = (int16_t)x;
+        if (--rows == 0)
+            return;
+        side -= down;
     }
-}
-
-/* From p down to q, at the row y, which it crosses. */
-static inline void edge_start(edge_t *edge, const yb_spot_t *p, const yb_spot_t *q, int32_t y)
-{
-    int32_t dx = q->x_q4 - p->x_q4;
-    int32_t dy = q->y_q4 - p->y_q4;
-    edge->x = raster_pixel(p->x_q4);
-    edge->side = (raster_area_t)(edge->x * 16 + 8 - p->x_q4) * dy -
-                 (raster_area_t)(y * 16 + 8 - p->y_q4) * dx;
-    edge->across = (raster_area_t)dy * 16;
-    edge->down = (raster_area_t)dx * 16;
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
@@ -221,19 +239,14 @@ typedef struct {
 } cutter_t;
 
 /* False: the lines would lie so close together that nothing else would be left. */
-static bool cutter_start(cutter_t *cutter, const raster_t *raster, const yb_spot_t *a,
-                         const yb_spot_t *b, const yb_spot_t *c, int32_t y)
+static bool cutter_start(cutter_t *cutter, const yb_spot_t *const p[3], int32_t y)
 {
-    const yb_spot_t *const p[3] = {a, c, b};
-    cutter->cut = raster->cut;
-    if (raster->cut == NULL)
-        return false;
-    const int32_t value[3] = {raster->cut->value[0], raster->cut->value[2], raster->cut->value[1]};
-    plane_start(&cutter->plane, p, value, y);
-    cutter->plane.at_q14 -= (uint32_t)raster->cut->zero << 14;
+    const raster_cut_t *cut = cutter->cut;
+    plane_start(&cutter->plane, p, cut->value, y);
+    cutter->plane.at_q14 -= (uint32_t)cut->zero << 14;
     cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
-    cutter->half_interval = raster->cut->interval << 13;
-    return raster->cut->interval == 0 || cutter->half < cutter->half_interval >> 2;
+    cutter->half_interval = cut->interval << 13;
+    return cut->interval == 0 || cutter->half < cutter->half_interval >> 2;
 }
 
 /* As draw_span, with lines. Values are below 2^16, and the interval is: within 2^30. */
@@ -261,85 +274,97 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
     }
 }
 
+/* A triangle's own sides, of the rows from first up to end. */
+static inline void trace_all(const yb_spot_t *const p[3], int32_t first, int32_t end,
+                             chunk_t *chunk)
+{
+    trace(p[0], p[1], first, end, chunk);
+    trace(p[1], p[2], first, end, chunk);
+    trace(p[2], p[0], first, end, chunk);
+}
+
+/* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
+static inline uint16_t mean_near(const yb_spot_t *const p[3])
+{
+    uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
+    return (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
+}
+
+/* A triangle of any size, on its plane if it is not small, with lines if it has any. */
+static void fill_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look,
+                       int32_t y, int32_t end_y, uint16_t pixel)
+{
+    int32_t width = raster->screen->width;
+    int32_t line = y - raster->first_row;
+    uint16_t *depth = raster->band->depth + line * width;
+    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
+    plane_t plane = {(uint32_t)mean_near(p) << 14, 0, 0};
+    const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
+    if (look == RASTER_FRONT)
+        plane_start(&plane, p, near, y);
+    cutter_t cutter = {.cut = raster->cut};
+    bool cuts = raster->cut != NULL && cutter_start(&cutter, p, y);
+    chunk_t chunk;
+    for (int32_t i = CHUNK; y < end_y; y++, i++) {
+        if (i == CHUNK) {
+            trace_all(p, y, fix_min(y + CHUNK, end_y), &chunk);
+            i = 0;
+        }
+        int32_t x = fix_max(chunk.left[i], 0);
+        int32_t end = fix_min(chunk.right[i], width);
+        if (cuts)
+            draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
+        else
+            draw_span(raster, depth, row, x, end, &plane, in_row(raster, pixel, y));
+        plane.at_q14 += (uint32_t)plane.along_y;
+        cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
+        depth += width;
+        row += raster->band->pitch;
+    }
+}
+
 void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
                  raster_look_t look, uint16_t pixel)
 {
-    /* Clockwise from the topmost: down the right side by p[1], down the left one by p[2]. One of
-     * them is the lowest. */
-    const yb_spot_t *p[3] = {a, c, b};
-    if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
-        p[0] = b;
-        p[1] = a;
-        p[2] = c;
-    } else if (c->y_q4 < a->y_q4) {
-        p[0] = c;
-        p[1] = b;
-        p[2] = a;
+    const yb_spot_t *const p[3] = {a, b, c};
+    int32_t top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
+    int32_t bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
+    int32_t y = fix_max(raster_pixel(top), raster->first_row);
+    int32_t end_y = fix_min(raster_pixel(bottom), raster->end_row);
+    if (look == RASTER_FRONT || raster->cut != NULL) {
+        fill_plane(raster, p, look, y, end_y, pixel);
+        return;
     }
-    int32_t y = fix_max(raster_pixel(p[0]->y_q4), raster->first_row);
-    int32_t right_turn = raster_pixel(p[1]->y_q4);
-    int32_t left_turn = raster_pixel(p[2]->y_q4);
-    int32_t end_y = fix_min(fix_max(right_turn, left_turn), raster->end_row);
-    plane_t plane = {0, 0, 0};
-    /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
-    uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
-    uint16_t near = (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
-    if (look == RASTER_FRONT) {
-        const int32_t nears[3] = {p[0]->near, p[1]->near, p[2]->near};
-        plane_start(&plane, p, nears, y);
-    }
-    cutter_t cutter = {NULL, {0, 0, 0}, 0, 0};
-    bool cuts = cutter_start(&cutter, raster, a, b, c, y);
-    if (look != RASTER_FRONT)
-        plane.at_q14 = (uint32_t)near << 14;
+    chunk_t chunk;
+    trace_all(p, y, end_y, &chunk);
+    uint16_t near = mean_near(p);
+    int32_t width = raster->screen->width;
     int32_t line = y - raster->first_row;
-    uint16_t *depth = raster->band->depth + line * raster->screen->width;
-    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
-    /* Each side starts here; where it turns it starts again with the other edge. */
-    bool right_second = right_turn <= y;
-    bool left_second = left_turn <= y;
-    int32_t right_start = y;
-    int32_t left_start = y;
-    edge_t left = {0, 0, 0, 0};
-    edge_t right = {0, 0, 0, 0};
-    for (;;) {
-        if (y == right_start) {
-            edge_start(&right, right_second ? p[1] : p[0], right_second ? p[2] : p[1], y);
-            right_start = right_turn;
-            right_second = true;
-        } else {
-            right.side -= right.down;
-        }
-        edge_settle(&right);
-        if (y == left_start) {
-            edge_start(&left, left_second ? p[2] : p[0], left_second ? p[1] : p[2], y);
-            left_start = left_turn;
-            left_second = true;
-        } else {
-            left.side -= left.down;
-        }
-        edge_settle(&left);
-        int32_t x = fix_max(left.x, 0);
-        int32_t end = fix_min(right.x, raster->screen->width);
-        if (cuts)
-            draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
-        else if (look != RASTER_FRONT)
-            draw_level(raster, depth, row, x, end, near, in_row(raster, pixel, y));
-        else
-            draw_span(raster, depth, row, x, end, &plane, in_row(raster, pixel, y));
-        if (++y >= end_y)
-            return;
-        plane.at_q14 += (uint32_t)plane.along_y;
-        cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
-        depth += raster->screen->width;
-        row += raster->band->pitch;
+    uint16_t *depth = raster->band->depth + line * width;
+    size_t pitch = raster->band->pitch;
+    uint8_t *row = raster->band->pixels + (size_t)line * pitch;
+    for (int32_t rows = end_y - y, i = 0; i < rows; i++) {
+        draw_level(raster, depth, row, fix_max(chunk.left[i], 0), fix_min(chunk.right[i], width),
+                   near, in_row(raster, pixel, y + i));
+        depth += width;
+        row += pitch;
     }
 }
 
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)
 {
-    raster_look_t look = raster_look(raster, a, b, c);
+    if (a->near == 0 || b->near == 0 || c->near == 0)
+        return RASTER_BEYOND;
+    int32_t top = raster->first_row * 16 + 8;
+    int32_t bottom = raster->end_row * 16 - 8;
+    int32_t right = raster->screen->width * 16 - 8;
+    if ((a->y_q4 <= top && b->y_q4 <= top && c->y_q4 <= top) ||
+        (a->y_q4 > bottom && b->y_q4 > bottom && c->y_q4 > bottom) ||
+        (a->x_q4 <= 8 && b->x_q4 <= 8 && c->x_q4 <= 8) ||
+        (a->x_q4 > right && b->x_q4 > right && c->x_q4 > right))
+        return RASTER_NOTHING;
+    raster_look_t look = raster_front(a, b, c);
     if (raster->band != NULL && (look == RASTER_FRONT || look == RASTER_SMALL))
         raster_fill(raster, a, b, c, look, pixel);
     return look;

@@ -57,35 +57,30 @@ typedef enum {
     RASTER_BEYOND /* a corner has no spot: it must be clipped */
 } raster_look_t;
 
-/* Looks at a triangle, counter-clockwise from the front. */
-static inline raster_look_t raster_look(const raster_t *raster, const yb_spot_t *a,
-                                        const yb_spot_t *b, const yb_spot_t *c)
+/* Looks at a triangle, counter-clockwise from the front, whose corners have spots and are not all
+ * beyond one side of the band.
+ */
+static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c)
 {
     int32_t top = a->y_q4 < b->y_q4 ? a->y_q4 : b->y_q4;
     int32_t bottom = a->y_q4 < b->y_q4 ? b->y_q4 : a->y_q4;
-    top = c->y_q4 < top ? c->y_q4 : top;
-    bottom = c->y_q4 > bottom ? c->y_q4 : bottom;
-    if (top == INT32_MIN)
-        return RASTER_BEYOND;
-    int32_t y0 = raster_pixel(top);
-    int32_t y1 = raster_pixel(bottom);
-    if (y0 >= y1 || y0 >= raster->end_row || y1 <= raster->first_row)
-        return RASTER_NOTHING;
+    top = raster_pixel(c->y_q4 < top ? c->y_q4 : top);
+    bottom = raster_pixel(c->y_q4 > bottom ? c->y_q4 : bottom);
     /* y points down: a front, counter-clockwise with y up, is negative here. */
-    if ((raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
-            (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4) >=
-        0)
+    if (top >= bottom || (raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
+                                 (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4) >=
+                             0)
         return RASTER_NOTHING;
     int32_t left = a->x_q4 < b->x_q4 ? a->x_q4 : b->x_q4;
     int32_t right = a->x_q4 < b->x_q4 ? b->x_q4 : a->x_q4;
     left = raster_pixel(c->x_q4 < left ? c->x_q4 : left);
     right = raster_pixel(c->x_q4 > right ? c->x_q4 : right);
-    if (left >= right || left >= raster->screen->width || right <= 0)
+    if (left >= right)
         return RASTER_NOTHING;
-    return right - left > RASTER_LEVEL || y1 - y0 > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
+    return right - left > RASTER_LEVEL || bottom - top > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
 }
 
-/* Draws a triangle that raster_look finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, or as
+/* Draws a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, or as
  * the cut says, where it is nearer than what is there. A pixel is covered if its centre is inside,
  * or on a top or left edge: pixels along the common edge of two triangles are drawn once, none is
  * left out.

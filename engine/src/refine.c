@@ -17,9 +17,10 @@ static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)
 }
 
 /* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
-static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b, int class)
+static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     int32_t rise = fix_abs(bulge_of(a, b));
+    int class = relief_class(relief_dx(a->place, b->place), relief_dy(a->place, b->place));
     const relief_bound_t bound = {rise + (rise >> 1) + 16, class};
     return fix_max(a->z_q8, b->z_q8) + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
 }
@@ -56,13 +57,22 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
     for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
         asked += REFINE_ONCE;
     if (asked == edge || (frame->even_water && fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
-                          drowned(frame, a, b, refine_class(edge))))
+                          drowned(frame, a, b)))
         return edge;
     if (!seen || change << 2 > near) /* or there are no spots */
         return edge | REFINE_AGAIN;
     int32_t wide = fix_abs(a->spot.x_q4 - b->spot.x_q4);
     int32_t high = fix_abs(a->spot.y_q4 - b->spot.y_q4);
     return (fix_max(wide, high) >> 4) * change <= 2 * near ? asked : edge | REFINE_AGAIN;
+}
+
+/* Is an edge of this length left whole, as most are, by its nearer end? */
+static inline bool looks_short(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                               yb_edge_t length)
+{
+    int32_t least = fix_min(a->spot.near, b->spot.near);
+    int32_t most = fix_max(a->spot.near, b->spot.near);
+    return least > 0 && length * (uint32_t)most <= frame->longest;
 }
 
 yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
@@ -72,9 +82,19 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
-    return refine_ask(frame, a, b,
-                      (yb_edge_t)fix_length(across, along) | (yb_edge_t)(relief_class(dx, dy) + 4)
-                                                                 << 16);
+    yb_edge_t edge = (yb_edge_t)fix_length(across, along);
+    if (looks_short(frame, a, b, edge))
+        return edge;
+    edge = refine_ask(frame, a, b, edge);
+    return edge < REFINE_ONCE ? edge : edge | (yb_edge_t)(relief_class(dx, dy) + 4) << 16;
+}
+
+/* The edge ab between two midpoints, from a half that is as long. */
+static yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                            yb_edge_t half)
+{
+    return looks_short(frame, a, b, half & 0xffff) ? half & 0xffffff
+                                                   : refine_ask(frame, a, b, half);
 }
 
 /* Each half's mean of two numbers, rounded down. */
@@ -134,9 +154,9 @@ enum {
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
 {
     /* What meets no pixel's centre draws nothing. */
-    view->left_q4 = 8;
+    view->left_q4 = 9;
     view->right_q4 = frame->screen.width * 16 - 8;
-    view->top_q4 = first_row * 16 + 8;
+    view->top_q4 = first_row * 16 + 9;
     view->bottom_q4 = end_row * 16 - 8;
     int32_t wide = slope_q8(frame, frame->screen.width * 8 + SPARE_Q4);
     int32_t middle = frame->screen.height * 8;
@@ -202,21 +222,32 @@ static inline bool find_box(const yb_point_t *const *p, int count, box_t *box)
     return box->top != INT32_MIN;
 }
 
-/* Widens it for points that may move by `stray`. False: they may come nearer by more than an
- * eighth.
- */
+/* How far on the screen points of up to 1/depth `near` go that move by `stray` in height. */
+typedef struct {
+    int32_t x, y;
+} spare_t;
+
+/* False: they may come nearer by more than an eighth. */
+static inline bool find_spare(const yb_frame_t *frame, int32_t stray, int32_t near, spare_t *spare)
+{
+    if (stray >= 1 << 14 || (stray * near) >> 3 > frame->most_bend)
+        return false;
+    int32_t sway = ((stray * near) >> 10) + 1;
+    int32_t least = SPARE_Q4 + (near * frame->spare_q4 >> 16);
+    spare->x = (sway * frame->sway_x_q4 >> frame->lift_shift) + least;
+    spare->y = (sway * frame->sway_y_q4 >> frame->lift_shift) + least;
+    return true;
+}
+
 static bool widen_box(const yb_frame_t *frame, int32_t stray, box_t *box)
 {
-    if (stray >= 1 << 14 || (stray * box->near) >> 3 > frame->most_bend)
+    spare_t spare;
+    if (!find_spare(frame, stray, box->near, &spare))
         return false;
-    int32_t sway = ((stray * box->near) >> 10) + 1;
-    int32_t spare = SPARE_Q4 + (box->near * frame->spare_q4 >> 16);
-    int32_t x = (sway * frame->sway_x_q4 >> frame->lift_shift) + spare;
-    int32_t y = (sway * frame->sway_y_q4 >> frame->lift_shift) + spare;
-    box->left -= x;
-    box->right += x;
-    box->top -= y;
-    box->bottom += y;
+    box->left -= spare.x;
+    box->right += spare.x;
+    box->top -= spare.y;
+    box->bottom += spare.y;
     return true;
 }
 
@@ -230,38 +261,63 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
                    int count, int32_t stray)
 {
     box_t box;
-    if (view == NULL)
-        return false;
     if (!find_box(p, count, &box) || !widen_box(frame, stray, &box))
         return misses_planes(frame, view, p, count, stray);
     return box_misses(view, &box);
 }
 
-/* How far refinement can move a point of a triangle, of which the edges of level->pattern are
- * split: by their midpoints now, and by what its parts do then. None of them has an edge that is
- * longer than the mean of the longest of all and the longest that is left whole: halves are no
- * longer, and a line from a corner to a midpoint no longer than the mean of the sides beside it.
+static inline int next_of(int i)
+{
+    return i == 2 ? 0 : i + 1;
+}
+
+/* The length class of the longest edge that is split. */
+static inline int split_class(const yb_part_t *part)
+{
+    yb_edge_t class = 0;
+    for (int i = 0; i < 3; i++) {
+        yb_edge_t edge = part->edge[i];
+        class = edge >= REFINE_ONCE && (edge & 0xff0000) > class ? edge & 0xff0000 : class;
+    }
+    return refine_class(class);
+}
+
+/* REFINE_ONCE or more if one of a triangle's edges is. */
+static inline yb_edge_t edges_of(const yb_part_t *part)
+{
+    return part->edge[0] | part->edge[1] | part->edge[2];
+}
+
+/* How far refinement can move a point of a triangle of which some edges are split: by their
+ * midpoints now, and by what its parts do then. None of them has an edge that is longer than the
+ * mean of the longest of all and the longest that is left whole: halves are no longer, and a line
+ * from a corner to a midpoint no longer than the mean of the sides beside it.
  *
  * None of it comes nearer by more than an eighth; else the caller has to know of no limit.
  */
-static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, int32_t near)
+static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part, int32_t near)
 {
-    const yb_edge_t *edge = level->edge;
+    const yb_map_t *map = frame->map;
     yb_edge_t longest = 0;
-    yb_edge_t class = 0;
     yb_edge_t whole = 0;
+    uint32_t square = 0;
     int32_t bulge = 0;
     for (int i = 0; i < 3; i++) {
-        yb_edge_t length = edge[i] & 0xffff;
+        const yb_point_t *a = part->point[i];
+        const yb_point_t *b = part->point[next_of(i)];
+        int32_t dx = relief_dx(a->place, b->place);
+        int32_t dy = relief_dy(a->place, b->place);
+        int32_t rise = fix_abs(
+            relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy));
+        uint32_t half = relief_half_square(dx, dy);
+        yb_edge_t length = part->edge[i] & 0xffff;
+        bulge = rise > bulge ? rise : bulge;
+        square = half > square ? half : square;
         longest = length > longest ? length : longest;
-        whole = edge[i] < REFINE_ONCE && length > whole ? length : whole;
-        class = (edge[i] & 0xff0000) > class ? edge[i] & 0xff0000 : class;
-        bulge =
-            fix_max(bulge, fix_abs(bulge_of(level->point[i], level->point[i == 2 ? 0 : i + 1])));
+        whole = part->edge[i] < REFINE_ONCE && length > whole ? length : whole;
     }
-    const yb_map_t *map = frame->map;
-    int c = refine_class(class);
-    int32_t now = (map->noise[c] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
+    int class = split_class(part);
+    int32_t now = (map->noise[class] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
     uint32_t size = (((longest + whole) >> 1) + 1) * (uint32_t)near;
     size += size >> 3;
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
@@ -272,22 +328,21 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_level_t *level, i
     int often = 0;
     for (; size > frame->longest && often < 16; size >>= 1)
         often++;
-    if (whole == 0)
-        c = (int)fix_max(c - 4, 0);
-    const relief_bound_t bound = {bulge, c};
-    return now + relief_reach(map, &bound, c + 4 - 4 * often);
+    class = whole == 0 ? (int)fix_max(class - 4, 0) : relief_square_class(square);
+    const relief_bound_t bound = {bulge, class};
+    return now + relief_reach(map, &bound, class + 4 - 4 * often);
 }
 
-int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level)
+int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
 {
-    const yb_point_t *const *p = level->point;
+    const yb_point_t *const *p = part->point;
     int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
     int32_t stray = 0;
-    if (level->pattern != 0) {
+    if (edges_of(part) >= REFINE_ONCE) {
         bool seen = p[0]->spot.near > 0 && p[1]->spot.near > 0 && p[2]->spot.near > 0;
-        stray = limited_stray(frame, level, seen ? near : 65535);
+        stray = limited_stray(frame, part, seen ? near : 65535);
         if (stray >= 1 << 14 || (stray * near) >> 3 > frame->most_bend)
-            stray = limited_stray(frame, level, 65535);
+            stray = limited_stray(frame, part, 65535);
     }
     /* What is above the water may sink to it where the ground between dips under it. */
     int32_t water = frame->view.water_q8;
@@ -296,127 +351,168 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level)
     return stray;
 }
 
-/* Is nothing that a level can become in the view? Most levels lie in it as they are. */
-static inline bool level_misses(const yb_frame_t *frame, const refine_view_t *view,
-                                const yb_level_t *level)
+/* The sides of the view that a point is beyond. */
+static inline uint8_t out_of(const refine_view_t *view, const yb_spot_t *spot)
 {
-    box_t box;
-    if (!find_box(level->point, 3, &box))
-        return misses_planes(frame, view, level->point, 3, refine_stray(frame, level));
-    if (!box_misses(view, &box))
+    if (spot->near == 0)
+        return REFINE_NOWHERE;
+    return (uint8_t)((spot->y_q4 < view->top_q4 ? REFINE_ABOVE : 0) |
+                     (spot->y_q4 > view->bottom_q4 ? REFINE_BELOW : 0) |
+                     (spot->x_q4 < view->left_q4 ? REFINE_LEFT : 0) |
+                     (spot->x_q4 > view->right_q4 ? REFINE_RIGHT : 0));
+}
+
+/* Are three spots that are `beyond` some sides of the view farther away than `spare` from one? */
+static bool farther(const refine_view_t *view, const yb_point_t *const p[3], int beyond,
+                    const spare_t *spare)
+{
+    const yb_spot_t *a = &p[0]->spot;
+    const yb_spot_t *b = &p[1]->spot;
+    const yb_spot_t *c = &p[2]->spot;
+    return ((beyond & REFINE_ABOVE) != 0 &&
+            view->top_q4 - fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4)) > spare->y) ||
+           ((beyond & REFINE_BELOW) != 0 &&
+            fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4)) - view->bottom_q4 > spare->y) ||
+           ((beyond & REFINE_LEFT) != 0 &&
+            view->left_q4 - fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4)) > spare->x) ||
+           ((beyond & REFINE_RIGHT) != 0 &&
+            fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4)) - view->right_q4 > spare->x);
+}
+
+/* Is nothing that a triangle can become in the view? Most lie in it as they are. Of one whose
+ * corners are all beyond one side, such a side is enough: is it farther away than any of it can
+ * come?
+ */
+static bool part_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part)
+{
+    const yb_point_t *const *p = part->point;
+    int beyond = p[0]->out & p[1]->out & p[2]->out;
+    if (((p[0]->out | p[1]->out | p[2]->out) & REFINE_NOWHERE) != 0)
+        return refine_misses(frame, view, p, 3, refine_stray(frame, part));
+    if (beyond == 0)
         return false;
-    int32_t stray = refine_stray(frame, level);
-    if (!widen_box(frame, stray, &box))
-        return misses_planes(frame, view, level->point, 3, stray);
-    return box_misses(view, &box);
+    int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
+    spare_t spare;
+    int32_t stray = refine_stray(frame, part);
+    if (!find_spare(frame, stray, near, &spare))
+        return misses_planes(frame, view, p, 3, stray);
+    return farther(view, p, beyond, &spare);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-/* part_table[pattern] + 3 k: part k of a triangle whose edges of `pattern` are split, by its
- * corners (0 to 2: the triangle's; 3 to 5: the midpoints of edges 0 to 2) and, in the upper half,
- * its edges (0 to 2: an edge of the triangle; 3 to 5: a half of it; 6 to 8: one of those between
- * the parts). As SPEC 3.4.
- */
-enum {
-    PARTS = 4,
-    PART_END = 6
-};
-static const uint8_t part_table[8][3 * PARTS + 1] YB_ROM = {
-    {PART_END},
-    {0x30, 0x63, 0x22, 0x33, 0x11, 0x62, PART_END},
-    {0x41, 0x64, 0x00, 0x44, 0x22, 0x60, PART_END},
-    {0x64, 0x33, 0x41, 0x22, 0x30, 0x73, 0x72, 0x63, 0x44, PART_END},
-    {0x52, 0x65, 0x11, 0x55, 0x00, 0x61, PART_END},
-    {0x63, 0x55, 0x30, 0x11, 0x52, 0x75, 0x71, 0x65, 0x33, PART_END},
-    {0x65, 0x44, 0x52, 0x00, 0x41, 0x74, 0x70, 0x64, 0x55, PART_END},
-    {0x30, 0x73, 0x55, 0x33, 0x41, 0x84, 0x65, 0x44, 0x52, 0x64, 0x75, 0x83, PART_END},
-};
-/* The ends of the edges between the parts; 0: there is none. Where all three edges are split edge i
- * is half as long as, and parallel to, edge i of the triangle.
- */
-static const uint8_t inner_table[8][3] YB_ROM = {
-    {0, 0, 0},    {0x32, 0, 0},    {0x40, 0, 0},    {0x43, 0x32, 0},
-    {0x51, 0, 0}, {0x53, 0x51, 0}, {0x54, 0x40, 0}, {0x54, 0x53, 0x43},
-};
-
-static inline int next_of(int i)
-{
-    return i == 2 ? 0 : i + 1;
-}
-
-void refine_root(yb_frame_t *frame, yb_level_t *level, yb_triangle_t triangle)
+void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part)
 {
     for (int i = 0; i < 3; i++) {
         camera_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-        level->point[i] = &frame->root[i];
+        frame->root[i].out = out_of(view, &frame->root[i].spot);
+        part->point[i] = &frame->root[i];
     }
     for (int i = 0; i < 3; i++)
-        level->edge[i] = refine_edge(frame, level->point[i], level->point[next_of(i)]);
+        part->edge[i] = refine_edge(frame, part->point[i], part->point[next_of(i)]);
 }
 
-uint8_t refine_pattern(const yb_frame_t *frame, yb_level_t *level)
+bool refine_splits(const yb_frame_t *frame, yb_part_t *part)
 {
     for (int i = 0; i < 3; i++) {
-        if (level->edge[i] >= REFINE_ASK)
-            level->edge[i] =
-                refine_ask(frame, level->point[i], level->point[next_of(i)], level->edge[i]);
+        if (part->edge[i] >= REFINE_ASK)
+            part->edge[i] =
+                refine_ask(frame, part->point[i], part->point[next_of(i)], part->edge[i]);
     }
-    level->pattern = (uint8_t)((level->edge[0] >= REFINE_ONCE ? 1 : 0) |
-                               (level->edge[1] >= REFINE_ONCE ? 2 : 0) |
-                               (level->edge[2] >= REFINE_ONCE ? 4 : 0));
-    return level->pattern;
+    return edges_of(part) >= REFINE_ONCE;
 }
 
-void refine_split(const yb_frame_t *frame, yb_level_t *level)
+/* The midpoint of an edge, in a place on the stack. */
+static const yb_point_t *middle_in(const yb_frame_t *frame, const refine_view_t *view,
+                                   yb_level_t *level, const yb_point_t *a, const yb_point_t *b,
+                                   yb_edge_t edge)
 {
-    for (int i = 0; i < 3; i++) {
-        if ((level->pattern & 1 << i) == 0)
+    refine_middle(frame, a, b, edge, &level->middle);
+    level->middle.out = out_of(view, &level->middle.spot);
+    return &level->middle;
+}
+
+/* As SPEC 3.4. A part that is laid aside needs no midpoint above its own place on the stack, or one
+ * and the next place's as its last corner.
+ */
+yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
+                         yb_level_t *level)
+{
+    const yb_point_t *a = part->point[0];
+    const yb_point_t *b = part->point[1];
+    const yb_point_t *c = part->point[2];
+    yb_edge_t ab = part->edge[0];
+    yb_edge_t bc = part->edge[1];
+    yb_edge_t ca = part->edge[2];
+    /* Turned so that of the edges that are split ab is the first. */
+    while (ab < REFINE_ONCE || (bc < REFINE_ONCE && ca >= REFINE_ONCE)) {
+        const yb_point_t *p = a;
+        yb_edge_t edge = ab;
+        a = b;
+        b = c;
+        c = p;
+        ab = bc;
+        bc = ca;
+        ca = edge;
+    }
+    const yb_point_t *m = middle_in(frame, view, &level[0], a, b, ab);
+    yb_edge_t am = refine_half(ab);
+    if (bc < REFINE_ONCE) {
+        yb_edge_t mc = refine_edge(frame, m, c);
+        level[0].rest = (yb_part_t){{m, b, c}, {am, bc, mc}};
+        *part = (yb_part_t){{a, m, c}, {am, mc, ca}};
+        return level + 1;
+    }
+    const yb_point_t *n = middle_in(frame, view, &level[1], b, c, bc);
+    yb_edge_t bn = refine_half(bc);
+    if (ca < REFINE_ONCE) {
+        yb_edge_t mc = refine_edge(frame, m, c);
+        yb_edge_t mn = refine_edge(frame, m, n);
+        level[0].rest = (yb_part_t){{c, a, m}, {ca, am, mc}};
+        level[1].rest = (yb_part_t){{c, m, n}, {mc, mn, bn}};
+        *part = (yb_part_t){{n, m, b}, {mn, am, bn}};
+        return level + 2;
+    }
+    const yb_point_t *o = middle_in(frame, view, &level[2], c, a, ca);
+    yb_edge_t co = refine_half(ca);
+    /* Half as long as, and parallel to, the edges of the triangle. */
+    yb_edge_t on = inner_edge(frame, o, n, am);
+    yb_edge_t mo = inner_edge(frame, m, o, bn);
+    yb_edge_t mn = inner_edge(frame, m, n, co);
+    level[0].rest = (yb_part_t){{m, b, n}, {am, bn, mn}};
+    level[1].rest = (yb_part_t){{m, n, o}, {mn, on, mo}};
+    level[2].rest = (yb_part_t){{o, n, c}, {on, bn, co}};
+    *part = (yb_part_t){{a, m, o}, {am, mo, co}};
+    return level + 3;
+}
+
+bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part)
+{
+    for (yb_level_t *level = *top; level-- != bottom;) {
+        if (level->rest.point[0] == NULL)
             continue;
-        level->point[3 + i] = &level->middle[i];
-        level->edge[3 + i] = refine_half(level->edge[i]);
-        refine_middle(frame, level->point[i], level->point[next_of(i)], level->edge[i],
-                      &level->middle[i]);
+        *part = level->rest;
+        level->rest.point[0] = NULL;
+        *top = level + (part->point[2] == &level[1].middle ? 2 : 1);
+        return true;
     }
-    const uint8_t *ends = inner_table[level->pattern];
-    for (int i = 0; i < 3; i++) {
-        uint8_t end = yb_rom_u8(&ends[i]);
-        if (end == 0)
-            break;
-        const yb_point_t *a = level->point[end & 15];
-        const yb_point_t *b = level->point[end >> 4];
-        level->edge[6 + i] = level->pattern == 7
-                                 ? refine_ask(frame, a, b, refine_half(level->edge[i]))
-                                 : refine_edge(frame, a, b);
-    }
-}
-
-bool refine_part(const yb_level_t *level, int k, yb_level_t *part)
-{
-    const uint8_t *table = &part_table[level->pattern][3 * k];
-    if (yb_rom_u8(&table[0]) == PART_END)
-        return false;
-    for (int i = 0; i < 3; i++) {
-        uint8_t entry = yb_rom_u8(&table[i]);
-        part->point[i] = level->point[entry & 15];
-        part->edge[i] = level->edge[entry >> 4];
-    }
-    return true;
+    return false;
 }
 
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
-    yb_level_t *level = frame->level;
-    refine_root(frame, level, triangle);
-    (void)refine_pattern(frame, level);
-    int32_t stray = refine_stray(frame, level);
+    yb_part_t part;
+    refine_root(frame, whole, triangle, &part);
+    (void)refine_splits(frame, &part);
+    int32_t stray = refine_stray(frame, &part);
     int32_t last = frame->screen.height - 1;
     int32_t first = 0;
     box_t box;
-    if (refine_misses(frame, whole, level->point, 3, stray)) {
+    if (refine_misses(frame, whole, part.point, 3, stray)) {
         first = last;
         last = 0;
-    } else if (find_box(level->point, 3, &box) && widen_box(frame, stray, &box)) {
+    } else if (find_box(part.point, 3, &box) && widen_box(frame, stray, &box)) {
         first = fix_clamp(box.top >> 4, 0, last);
         last = fix_clamp(box.bottom >> 4, 0, last);
     }
@@ -470,15 +566,15 @@ static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const rast
                         const yb_point_t *const p[3])
 {
     frame->stats.refined++;
-    if (raster == NULL)
+    if (raster == NULL || (p[0]->out & p[1]->out & p[2]->out & REFINE_SIDES) != 0)
         return;
-    raster_look_t look = raster_look(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
-    if (look == RASTER_NOTHING)
-        return;
-    if (look == RASTER_BEYOND) {
+    if (((p[0]->out | p[1]->out | p[2]->out) & REFINE_NOWHERE) != 0) {
         draw_clipped(frame, view, raster, p);
         return;
     }
+    raster_look_t look = raster_front(&p[0]->spot, &p[1]->spot, &p[2]->spot);
+    if (look == RASTER_NOTHING)
+        return;
     frame->stats.drawn++;
     if (raster->band == NULL) {
         hand_out(raster, p);
@@ -490,63 +586,27 @@ static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const rast
     raster_fill(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
 }
 
-/* What becomes of a triangle with an edge that may be split. */
-typedef enum {
-    DROPPED,
-    SPLIT,
-    LEAF
-} fate_t;
-
-static inline fate_t open_level(yb_frame_t *frame, const refine_view_t *view, yb_level_t *level)
-{
-    if (refine_pattern(frame, level) == 0)
-        return LEAF;
-    if (level_misses(frame, view, level))
-        return DROPPED;
-    if (level == &frame->level[YB_MAX_LEVELS - 1]) {
-        frame->stats.depth_limited++;
-        return LEAF;
-    }
-    refine_split(frame, level);
-    level->next = part_table[level->pattern];
-    return SPLIT;
-}
-
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
                  yb_triangle_t triangle)
 {
-    /* The first level has one part: the base triangle as it is. */
-    static const uint8_t whole[4] YB_ROM = {0x00, 0x11, 0x22, PART_END};
-    yb_level_t *level = frame->level;
-    refine_root(frame, level, triangle);
-    level->next = whole;
-    for (;;) {
-        const uint8_t *next = level->next;
-        uint8_t first = yb_rom_u8(&next[0]);
-        if (first == PART_END) {
-            if (level == frame->level)
-                return;
-            level--;
-            continue;
-        }
+    yb_level_t *top = frame->level;
+    const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
+    yb_part_t part;
+    refine_root(frame, view, triangle, &part);
+    do {
         if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
-        level->next = next + 3;
-        const uint8_t entry[3] = {first, yb_rom_u8(&next[1]), yb_rom_u8(&next[2])};
-        const yb_point_t *const p[3] = {level->point[entry[0] & 15], level->point[entry[1] & 15],
-                                        level->point[entry[2] & 15]};
-        const yb_edge_t edge[3] = {level->edge[entry[0] >> 4], level->edge[entry[1] >> 4],
-                                   level->edge[entry[2] >> 4]};
-        fate_t fate = LEAF;
-        if ((edge[0] | edge[1] | edge[2]) >= REFINE_ONCE) {
-            for (int i = 0; i < 3; i++) {
-                level[1].point[i] = p[i];
-                level[1].edge[i] = edge[i];
+        while (edges_of(&part) >= REFINE_ONCE &&
+               (edges_of(&part) < REFINE_ASK || refine_splits(frame, &part))) {
+            if (part_misses(frame, view, &part))
+                goto next;
+            if (top > last) {
+                frame->stats.depth_limited++;
+                break;
             }
-            fate = open_level(frame, view, level + 1);
+            top = refine_split(frame, view, &part, top);
         }
-        if (fate == LEAF)
-            leaf(frame, view, raster, p);
-        level += fate == SPLIT ? 1 : 0;
-    }
+        leaf(frame, view, raster, part.point);
+    next:;
+    } while (refine_next(frame->level, &top, &part));
 }

@@ -20,11 +20,6 @@
 #define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
 #define REFINE_ASK ((yb_edge_t)0xff << 24)   /* not asked yet */
 
-static inline uint32_t refine_length(yb_edge_t edge)
-{
-    return edge & 0xffff;
-}
-
 static inline int refine_class(yb_edge_t edge)
 {
     return (int)(edge >> 16 & 0xff) - 4;
@@ -36,6 +31,16 @@ static inline yb_edge_t refine_half(yb_edge_t edge)
     yb_edge_t half = ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
     return edge >= REFINE_AGAIN ? half | REFINE_ASK : half;
 }
+
+/* yb_point_t.out: the sides of some rows of the screen that a point is beyond. */
+enum {
+    REFINE_ABOVE = 1,
+    REFINE_BELOW = 2,
+    REFINE_LEFT = 4,
+    REFINE_RIGHT = 8,
+    REFINE_SIDES = 15,
+    REFINE_NOWHERE = 16 /* it has no spot */
+};
 
 /* The pyramid that some rows of the screen are seen through: near, left, right, top, bottom. */
 enum {
@@ -51,7 +56,7 @@ typedef struct {
 
 /* Some rows of the screen: as a box on it, and as a pyramid. */
 typedef struct {
-    int32_t left_q4, right_q4, top_q4, bottom_q4;
+    int32_t left_q4, right_q4, top_q4, bottom_q4; /* what is beyond one of them draws nothing */
     refine_plane_t plane[REFINE_PLANES];
 } refine_view_t;
 
@@ -70,27 +75,32 @@ void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_
                    yb_edge_t edge, yb_point_t *middle);
 
 /* Is nothing of some points, and of what lies between them, in the view, when each may move by
- * `stray` in height? With view NULL something is.
+ * `stray` in height?
  */
 bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
                    int count, int32_t stray);
 
-/* Height that a point of a triangle with this pattern may gain or lose until it is drawn, by
- * refinement and water.
+/* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
+int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);
+
+/* A base triangle, with its corners in frame->root. */
+void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part);
+
+/* Asks what edges of a triangle are REFINE_ASK. Is one of them split? */
+bool refine_splits(const yb_frame_t *frame, yb_part_t *part);
+
+/* Splits a triangle that is to be split: into its first part, and what is laid aside from `level`
+ * on, REFINE_PIECES at most. The answer is what follows it.
  */
-int32_t refine_stray(const yb_frame_t *frame, const yb_level_t *level);
+enum {
+    REFINE_PIECES = 3
+};
+yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
+                         yb_level_t *level);
 
-/* A base triangle, as a level with its own corners in frame->root. */
-void refine_root(yb_frame_t *frame, yb_level_t *level, yb_triangle_t triangle);
-
-/* Asks what edges of a level are REFINE_ASK. Which are split: its pattern. */
-uint8_t refine_pattern(const yb_frame_t *frame, yb_level_t *level);
-
-/* The midpoints of a level's pattern, and the edges of its parts. */
-void refine_split(const yb_frame_t *frame, yb_level_t *level);
-
-/* Part k of a level that is split; false: there are no more. */
-bool refine_part(const yb_level_t *level, int k, yb_level_t *part);
+/* Takes up what was laid aside last, between `bottom` and *top; false: there is nothing left. */
+bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part);
 
 /* The bins of rows that a base triangle may touch: frame->rows. `whole` is all rows. */
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle);

@@ -11,18 +11,26 @@
 
 #include "fix.h"
 
-/* The length class of an edge: two to an octave of its squared half length. With |dx|, |dy| below
- * 2^16 the square is below 2^31 and the class at most 61.
- */
-static inline int relief_class(int32_t dx, int32_t dy)
+/* The square of an edge's half length: below 2^31, with |dx|, |dy| below 2^16. */
+static inline uint32_t relief_half_square(int32_t dx, int32_t dy)
 {
     dx = fix_abs(dx) >> 1;
     dy = fix_abs(dy) >> 1;
-    uint32_t square = (uint32_t)(dx * dx) + (uint32_t)(dy * dy);
+    return (uint32_t)(dx * dx) + (uint32_t)(dy * dy);
+}
+
+/* The length class of an edge by that: two to an octave, at most 61. */
+static inline int relief_square_class(uint32_t square)
+{
     if (square < 2)
         return 0;
     int top = fix_log2_floor(square);
     return 2 * top + (int)(square >> (top - 1) & 1);
+}
+
+static inline int relief_class(int32_t dx, int32_t dy)
+{
+    return relief_square_class(relief_half_square(dx, dy));
 }
 
 /* Is the midpoint of an edge of these differences on the 1/256 lattice? */

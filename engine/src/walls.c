@@ -64,32 +64,35 @@ static bool hidden(const yb_frame_t *frame, const refine_view_t *view, const yb_
  * end, and of the edges to them, the last is the one in hand.
  */
 static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                      yb_level_t *level, int which)
+                      yb_part_t *part, int which)
 {
-    (void)refine_pattern(frame, level);
-    int32_t stray = refine_stray(frame, level);
+    yb_level_t *level = frame->level;
     const yb_level_t *last = level + YB_MAX_LEVELS - 1;
-    yb_point_t from = *level->point[which];
-    level->point[0] = level->point[which == 2 ? 0 : which + 1];
-    level->edge[0] = level->edge[which];
+    (void)refine_splits(frame, part);
+    int32_t stray = refine_stray(frame, part);
+    yb_point_t from = *part->point[which];
+    level->rest.point[0] = part->point[which == 2 ? 0 : which + 1];
+    level->rest.edge[0] = part->edge[which];
     for (yb_level_t *at = level;;) {
-        if (at->edge[0] >= REFINE_ASK)
-            at->edge[0] = refine_ask(frame, &from, at->point[0], at->edge[0]);
-        bool split = at->edge[0] >= REFINE_ONCE && at != last;
-        bool seen = (at != level && !split) || !hidden(frame, view, &from, at->point[0], stray);
+        const yb_point_t *to = at->rest.point[0];
+        yb_edge_t *edge = &at->rest.edge[0];
+        if (*edge >= REFINE_ASK)
+            *edge = refine_ask(frame, &from, to, *edge);
+        bool split = *edge >= REFINE_ONCE && at != last;
+        bool seen = (at != level && !split) || !hidden(frame, view, &from, to, stray);
         if (split && seen) {
-            refine_middle(frame, &from, at->point[0], at->edge[0], &at->middle[0]);
-            at->edge[0] = refine_half(at->edge[0]);
-            at[1].point[0] = &at->middle[0];
-            at[1].edge[0] = at->edge[0];
+            refine_middle(frame, &from, to, *edge, &at->middle);
+            *edge = refine_half(*edge);
+            at[1].rest.point[0] = &at->middle;
+            at[1].rest.edge[0] = *edge;
             at++;
             continue;
         }
         if (seen)
-            draw_piece(frame, raster, &from, at->point[0]);
+            draw_piece(frame, raster, &from, to);
         if (at == level)
             return;
-        from = *at->point[0];
+        from = *to;
         at--;
     }
 }
@@ -105,8 +108,9 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
             const yb_vertex_t *b = &map->vertex[map->triangle[t][i == 2 ? 0 : i + 1]];
             if (!on_one_side(map, a, b))
                 continue;
-            refine_root(frame, frame->level, t);
-            draw_edge(frame, view, raster, frame->level, i);
+            yb_part_t part;
+            refine_root(frame, view, t, &part);
+            draw_edge(frame, view, raster, &part, i);
         }
     }
 }

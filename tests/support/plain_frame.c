@@ -7,57 +7,71 @@
 #include "colour.h"
 #include "raster.h"
 #include "refine.h"
+#include "relief.h"
 #include "shade.h"
 
 typedef struct {
     const yb_frame_t *frame;
+    const refine_view_t *view;
     plain_leaf_fn fn;
     void *context;
     uint32_t count;
 } walk_t;
 
+yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge)
+{
+    int class = relief_class(relief_dx(a->place, b->place), relief_dy(a->place, b->place));
+    return edge >= REFINE_ONCE ? edge
+                               : (edge & 0xffff) | (yb_edge_t)(class + 4) << 16 | REFINE_ONCE;
+}
+
+const refine_view_t plain_view = {INT32_MIN, INT32_MAX, INT32_MIN, INT32_MAX, {{0, 0, 0, 0, 0}}};
+
 /* With twice the room that its relief may need. Without this all that lies behind the eye would be
  * refined as if it touched it.
  */
-bool plain_behind(const yb_frame_t *frame, const yb_level_t *level)
+bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
 {
-    yb_level_t whole = *level;
-    whole.pattern = 7;
+    yb_part_t whole = *part;
+    for (int i = 0; i < 3; i++)
+        whole.edge[i] = plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]);
     int64_t stray = 2 * (int64_t)refine_stray(frame, &whole) + 256;
     int64_t lift = (int64_t)abs(frame->depth_z) * frame->view.exaggerate_q8 >> 8;
     for (int i = 0; i < 3; i++) {
         camera_point_t at;
-        camera_view(frame, level->point[i]->place, level->point[i]->top_q8, &at);
+        camera_view(frame, part->point[i]->place, part->point[i]->top_q8, &at);
         if (at.depth + (stray * lift >> 14 >> frame->eye_shift) + 2 >= frame->near)
             return false;
     }
     return true;
 }
 
-static void walk(walk_t *at, yb_level_t *level, int depth)
+/* `used`: what the engine would have laid aside by now. */
+static void walk(walk_t *at, yb_part_t part, int used)
 {
-    if (plain_behind(at->frame, level))
+    if (plain_behind(at->frame, &part))
         return;
-    if (depth + 2 == YB_MAX_LEVELS || refine_pattern(at->frame, level) == 0) {
+    if (used > YB_MAX_LEVELS - REFINE_PIECES || !refine_splits(at->frame, &part)) {
         at->count++;
-        at->fn(at->context, level->point);
+        at->fn(at->context, part.point);
         return;
     }
-    refine_split(at->frame, level);
-    yb_level_t part;
-    for (int k = 0; refine_part(level, k, &part); k++)
-        walk(at, &part, depth + 1);
+    yb_level_t rest[REFINE_PIECES];
+    yb_level_t *top = refine_split(at->frame, at->view, &part, rest);
+    do {
+        walk(at, part, used + (int)(top - rest));
+    } while (refine_next(rest, &top, &part));
 }
 
 uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context)
 {
     static yb_frame_t copy; /* for its roots */
     copy = *frame;
-    walk_t at = {frame, fn, context, 0};
+    walk_t at = {frame, &plain_view, fn, context, 0};
     for (int t = 0; t < frame->map->triangle_count; t++) {
-        yb_level_t root;
-        refine_root(&copy, &root, (yb_triangle_t)t);
-        walk(&at, &root, 0);
+        yb_part_t root;
+        refine_root(&copy, &plain_view, (yb_triangle_t)t, &root);
+        walk(&at, root, 0);
     }
     return at.count;
 }
@@ -71,15 +85,14 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
     uint16_t pixel = shade_ground(drawing->frame, p);
-    raster_look_t look = raster_look(&drawing->raster, &p[0]->spot, &p[1]->spot, &p[2]->spot);
-    if (look == RASTER_BEYOND)
+    if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
-    else if (look != RASTER_NOTHING) {
+    else {
         raster_cut_t cut;
         raster_t raster = drawing->raster;
         if (drawing->frame->lines && shade_cut(drawing->frame, p, pixel, &cut))
             raster.cut = &cut;
-        raster_fill(&raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
+        (void)raster_draw(&raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
     }
 }
 
@@ -91,7 +104,7 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
         raster_row(&drawing.raster, y, colour_sky(frame, y));
     (void)plain_leaves(frame, draw_leaf, &drawing);
     if (frame->view.walls)
-        walls_draw(frame, NULL, &drawing.raster);
+        walls_draw(frame, &plain_view, &drawing.raster);
 }
 
 /* --- Views ------------------------------------------------------------------------------------ */

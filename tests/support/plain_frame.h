@@ -6,6 +6,7 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "refine.h"
 #include "rng.h"
 
 /* Called for each leaf of a frame, in the order in which the engine draws those it does not drop.
@@ -16,7 +17,13 @@ typedef void (*plain_leaf_fn)(void *context, const yb_point_t *const corner[3]);
 uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context);
 
 /* Lies a triangle, with all that it may become, behind the eye? With plenty to spare. */
-bool plain_behind(const yb_frame_t *frame, const yb_level_t *level);
+bool plain_behind(const yb_frame_t *frame, const yb_part_t *part);
+
+/* The edge ab, as one that is split: at least once. */
+yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge);
+
+/* A view that nothing is out of. */
+extern const refine_view_t plain_view;
 
 /* Draws all rows of a frame that has begun. */
 void plain_frame(yb_frame_t *frame, const yb_band_t *band);

@@ -38,11 +38,7 @@ static void open_page(page_t *page, yb_format_t format, int y, int rows)
 /* Draws a triangle; true if it shows its front and its box meets a pixel of the band. */
 static bool draw(const raster_t *raster, const yb_spot_t corner[3], uint16_t pixel)
 {
-    raster_look_t look = raster_look(raster, &corner[0], &corner[1], &corner[2]);
-    if (look == RASTER_NOTHING)
-        return false;
-    raster_fill(raster, &corner[0], &corner[1], &corner[2], look, pixel);
-    return true;
+    return raster_draw(raster, &corner[0], &corner[1], &corner[2], pixel) != RASTER_NOTHING;
 }
 
 static uint16_t pixel_at(const page_t *page, int x, int line)
@@ -328,7 +324,7 @@ static void depth_is_a_plane(void **state)
         raster_look_t look;
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        look = raster_look(&page.raster, &p[0], &p[1], &p[2]);
+        look = raster_front(&p[0], &p[1], &p[2]);
         double error = depth_error(p);
         if (look == RASTER_SMALL) {
             check_level(p);

@@ -52,7 +52,9 @@ static void check_edge(const yb_point_t *a, const yb_point_t *b)
         yb_point_t back_middle;
         if (how == 0 && (a->spot.near == 0 || b->spot.near == 0))
             continue;
-        there = (there & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
+        there = (plain_split(a, b, there) & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
+        memset(&forth_middle, 0, sizeof forth_middle);
+        memset(&back_middle, 0, sizeof back_middle);
         refine_middle(&frame, a, b, there, &forth_middle);
         refine_middle(&frame, b, a, there, &back_middle);
         assert_memory_equal(&forth_middle, &back_middle, sizeof forth_middle);
@@ -74,8 +76,8 @@ static void edges_are_the_same_from_both_ends(void **state)
         begin_random_frame(&rng, round);
         (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
-            yb_level_t root;
-            refine_root(&frame, &root, (yb_triangle_t)t);
+            yb_part_t root;
+            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
             check_leaf(NULL, root.point);
         }
     }
@@ -89,8 +91,8 @@ static void midpoints_are_the_surfaces(void **state)
     for (int round = 0; round < 40; round++) {
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
-            yb_level_t root;
-            refine_root(&frame, &root, (yb_triangle_t)t);
+            yb_part_t root;
+            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
@@ -98,7 +100,8 @@ static void midpoints_are_the_surfaces(void **state)
                 yb_point_t middle;
                 if (!relief_splits(b->x_q8 - a->x_q8, b->y_q8 - a->y_q8))
                     continue;
-                root.edge[i] = (root.edge[i] & 0xffffff) | REFINE_AGAIN;
+                root.edge[i] = plain_split(root.point[i], root.point[(i + 1) % 3], root.edge[i]) |
+                               REFINE_AGAIN;
                 relief_middle(&map, a, b, &truth);
                 refine_middle(&frame, root.point[i], root.point[(i + 1) % 3], root.edge[i],
                               &middle);
@@ -146,21 +149,22 @@ static void check_point(bounds_t *bounds, const yb_point_t *point)
     }
 }
 
-static void descend(bounds_t *bounds, yb_level_t *level)
+static void descend(bounds_t *bounds, yb_part_t part)
 {
     assert_true(bounds->depth < NODES);
-    if (plain_behind(&frame, level))
+    if (plain_behind(&frame, &part))
         return;
-    refine_pattern(&frame, level);
+    bool splits = refine_splits(&frame, &part);
     bounds->out[bounds->depth++] =
-        refine_misses(&frame, &bounds->view, level->point, 3, refine_stray(&frame, level));
+        refine_misses(&frame, &bounds->view, part.point, 3, refine_stray(&frame, &part));
     for (int i = 0; i < 3; i++)
-        check_point(bounds, level->point[i]);
-    if (level->pattern != 0) {
-        refine_split(&frame, level);
-        yb_level_t part;
-        for (int k = 0; refine_part(level, k, &part); k++)
-            descend(bounds, &part);
+        check_point(bounds, part.point[i]);
+    if (splits) {
+        yb_level_t rest[REFINE_PIECES];
+        yb_level_t *top = refine_split(&frame, &plain_view, &part, rest);
+        do {
+            descend(bounds, part);
+        } while (refine_next(rest, &top, &part));
     }
     bounds->depth--;
 }
@@ -176,9 +180,9 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
         bounds.end_row = rng_range(&rng, bounds.first_row + 1, frame.screen.height);
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
-            yb_level_t root;
-            refine_root(&frame, &root, (yb_triangle_t)t);
-            descend(&bounds, &root);
+            yb_part_t root;
+            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
+            descend(&bounds, root);
         }
     }
     print_message("%.0f points of triangles outside\n", (double)bounds.outside);
@@ -195,18 +199,19 @@ static void check_rows(int t, const yb_point_t *point)
     assert_in_range(spot->y_q4 >> 4 >> frame.row_shift, frame.rows[t] >> 4, frame.rows[t] & 15);
 }
 
-static void check_bins(int t, yb_level_t *level)
+static void check_bins(int t, yb_part_t part)
 {
-    if (plain_behind(&frame, level))
+    if (plain_behind(&frame, &part))
         return;
     for (int i = 0; i < 3; i++)
-        check_rows(t, level->point[i]);
-    if (refine_pattern(&frame, level) == 0)
+        check_rows(t, part.point[i]);
+    if (!refine_splits(&frame, &part))
         return;
-    refine_split(&frame, level);
-    yb_level_t part;
-    for (int k = 0; refine_part(level, k, &part); k++)
-        check_bins(t, &part);
+    yb_level_t rest[REFINE_PIECES];
+    yb_level_t *top = refine_split(&frame, &plain_view, &part, rest);
+    do {
+        check_bins(t, part);
+    } while (refine_next(rest, &top, &part));
 }
 
 static void bins_hold_their_triangles(void **state)
@@ -216,9 +221,9 @@ static void bins_hold_their_triangles(void **state)
     for (int round = 0; round < 100; round++) {
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
-            yb_level_t root;
-            refine_root(&frame, &root, (yb_triangle_t)t);
-            check_bins(t, &root);
+            yb_part_t root;
+            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
+            check_bins(t, root);
         }
     }
 }

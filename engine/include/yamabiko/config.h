@@ -30,17 +30,17 @@
 #error "YB_MAX_SIDE: 16 to 4096"
 #endif
 
-/* Levels of the explicit stack that refines one base triangle, itself among them. A triangle that
- * would need more is drawn as it is (its neighbours may leave a gap there), and counted in
- * yb_stats_t.depth_limited. 15 were enough for all orbits of random maps; 4 of 200 views from the
- * ground wanted more (tests/unit/test_frame.c).
- * Each level takes 152 bytes of yb_frame_t.
+/* Places on the explicit stack that refines one base triangle: one for each edge that is split of the
+ * triangles on the way down. A triangle that would need more is
+ * drawn as it is (its neighbours may leave a gap there), and counted in yb_stats_t.depth_limited.
+ * 32 were enough for all orbits of random maps; 2 of 200 views from the ground wanted more
+ * (tests/unit/test_frame.c). Each takes 56 bytes of yb_frame_t.
  */
 #ifndef YB_MAX_LEVELS
-#define YB_MAX_LEVELS 15
+#define YB_MAX_LEVELS 32
 #endif
-#if YB_MAX_LEVELS < 4 || YB_MAX_LEVELS > 32
-#error "YB_MAX_LEVELS: 4 to 32"
+#if YB_MAX_LEVELS < 4 || YB_MAX_LEVELS > 64
+#error "YB_MAX_LEVELS: 4 to 64"
 #endif
 
 #endif

@@ -505,18 +505,24 @@ typedef struct {
     int32_t z_q8;   /* of the ground */
     int32_t top_q8; /* of what is drawn: the ground, or the water over it */
     yb_spot_t spot; /* of top_q8 */
+    uint8_t out;    /* on which sides it is out of the band: see refine.h */
 } yb_point_t;
 
 /* An edge of a triangle that is being refined: see refine.h. */
 typedef uint32_t yb_edge_t;
 
-/* A level of refinement: a triangle, and how it is split. */
+/* A triangle that is being refined; edge i goes from corner i to the next. */
 typedef struct {
-    const yb_point_t *point[6]; /* its corners; the midpoints of its edges */
-    yb_edge_t edge[9];          /* its own three; a half of each; those between its parts */
-    yb_point_t middle[3];
-    const uint8_t *next; /* of its parts to visit */
-    uint8_t pattern;     /* which edges are split */
+    const yb_point_t *point[3];
+    yb_edge_t edge[3];
+} yb_part_t;
+
+/* What refinement has laid aside: a part of a triangle that is split, until it is taken up, and the
+ * middle of an edge of that triangle, until no part needs it any more.
+ */
+typedef struct {
+    yb_part_t rest; /* point[0] is NULL: none, or it was taken up */
+    yb_point_t middle;
 } yb_level_t;
 
 /* Working memory of a frame. Only stats is for the caller to read. */
