@@ -123,6 +123,13 @@ void yb_turntable_step(yb_turntable_t *table)
             say_frame(table, "paused");
         }
         break;
+    case 's':
+    case 'l':
+        table->viewer.looks ^= command == 's' ? YB_VIEWER_SHADOWS : YB_VIEWER_LINES;
+        draw(table);
+        if (table->paused)
+            say_frame(table, "paused");
+        break;
     case 'r':
         table->paused = false;
         break;

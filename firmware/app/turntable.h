@@ -11,6 +11,8 @@
  *     p    pause after the frame being drawn        answer: paused azimuth=00512 hash=89abcdef
  *     n    draw the next frame; only while paused   the same answer
  *     N    the same, but turn by 16 steps at once   the same answer
+ *     s    shadows on or off                        the same answer, if paused
+ *     l    contour lines on or off                  the same
  *     r    run on
  *
  * Anything else is passed over. azimuth is in binary angle, hash is yb_viewer_draw's. A board

@@ -2,7 +2,7 @@
  *
  * Portable C without an operating system: the firmware of every board, the simulator and the tests
  * on the PC compile this very file, so that a picture can be compared by its hash. No globals;
- * the caller places one yb_viewer_t (sizeof: 13.4 KB with 255 vertices).
+ * the caller places one yb_viewer_t (sizeof: about 12 KB with 255 vertices).
  *
  *     static yb_viewer_t viewer;
  *     if (yb_viewer_load(&viewer, code, sizeof code) == YB_OK)
@@ -38,6 +38,15 @@
 /* Heights are drawn doubled, as on relief maps: a screen this small would hide low mountains. */
 #define YB_VIEWER_EXAGGERATE_Q8 512
 
+/* Cells along a side of the shadows' grid. */
+#define YB_VIEWER_SHADOW_SIDE 64
+
+/* What may be drawn beside the relief; any of these together. */
+enum {
+    YB_VIEWER_SHADOWS = 1, /* that mountains cast, from the standard sun */
+    YB_VIEWER_LINES = 2    /* contour lines, about ten of them, at round heights */
+};
+
 typedef struct {
     yb_frame_t frame;
     uint16_t depth[YB_VIEWER_WIDTH * YB_VIEWER_BAND_ROWS];
@@ -46,8 +55,12 @@ typedef struct {
 
 typedef struct {
     yb_map_t map;
-    union { /* never both at once */
+    uint8_t looks; /* YB_VIEWER_SHADOWS, YB_VIEWER_LINES; 0 after loading */
+    yb_shadow_t shadow;
+    uint8_t lit[YB_SHADOW_BYTES(YB_VIEWER_SHADOW_SIDE)];
+    union { /* never two at once */
         yb_load_t load;
+        uint8_t heights[YB_SHADOW_WORK(YB_VIEWER_SHADOW_SIDE)];
         yb_viewer_drawing_t drawing;
     } work;
 } yb_viewer_t;
@@ -58,9 +71,13 @@ typedef struct {
 typedef void (*yb_viewer_band_fn)(void *context, uint16_t y, const uint8_t *pixels);
 
 /* Loads a code of at most `room` bytes. What follows the code's last byte is not looked at, so a
- * code may lie at the start of a larger piece of flash. After an error there is no map to draw.
+ * code may lie at the start of a larger piece of flash. After an error there is no map to draw. The
+ * shadows are cast here, once for all frames.
  */
 YB_MUST_CHECK yb_status_t yb_viewer_load(yb_viewer_t *viewer, const uint8_t *code, size_t room);
+
+/* Metres between the contour lines of YB_VIEWER_LINES: 1, 2 or 5 times a power of ten. */
+uint32_t yb_viewer_interval_m(const yb_map_t *map);
 
 /* Draws one frame of the loaded map from top to bottom and answers its hash: FNV-1a, 32 bits, over
  * its pixel bytes. `band` may be NULL.

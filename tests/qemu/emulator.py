@@ -165,6 +165,11 @@ class Board:
         self.send({1: "n", STRIDE_STEPS: "N"}[steps])
         return Frame(self.line())
 
+    def look(self, key):
+        """While paused: the frame with shadows (s) or contour lines (l) turned on or off."""
+        self.send(key)
+        return Frame(self.line())
+
     def pause_at(self, azimuth_bam):
         """Turns until the frame of that azimuth is on the display."""
         frame = self.pause()

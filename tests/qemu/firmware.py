@@ -26,9 +26,9 @@ def gallery():
     return sorted(str(path) for path in pathlib.Path(os.environ["YB_GALLERY"]).glob("*.yb"))
 
 
-def frame_bytes(map_path, azimuth_bam):
-    """The frame's pixel bytes as the PC draws them: 64 rows of 64."""
-    command = [os.environ["YB_HOST_FRAME"], map_path, str(azimuth_bam)]
+def frame_bytes(map_path, azimuth_bam, looks=0):
+    """The frame's pixel bytes as the PC draws them: 64 rows of 64. looks: 1 shadows, 2 lines."""
+    command = [os.environ["YB_HOST_FRAME"], map_path, str(azimuth_bam), str(looks)]
     result = subprocess.run(command, capture_output=True, check=False)
     if result.returncode != 0 or len(result.stdout) != 64 * 64:
         raise AssertionError(f"{command}: {result.stderr.decode()}, {len(result.stdout)} bytes")

@@ -1,5 +1,6 @@
-/* host_frame MAP.yb|built-in AZIMUTH: the frame that the firmware must show, drawn on the PC by the
- * firmware's own viewer; its rows of pixel bytes go to standard output. AZIMUTH in binary angle.
+/* host_frame MAP.yb|built-in AZIMUTH [LOOKS]: the frame that the firmware must show, drawn on the
+ * PC by the firmware's own viewer; its rows of pixel bytes go to standard output. AZIMUTH in binary
+ * angle.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,8 +32,8 @@ static yb_status_t load(const char *path)
 
 int main(int argc, char **argv)
 {
-    if (argc != 3) {
-        (void)fprintf(stderr, "usage: host_frame MAP.yb|built-in AZIMUTH\n");
+    if (argc != 3 && argc != 4) {
+        (void)fprintf(stderr, "usage: host_frame MAP.yb|built-in AZIMUTH [LOOKS]\n");
         return 2;
     }
     yb_status_t status = load(argv[1]);
@@ -40,6 +41,7 @@ int main(int argc, char **argv)
         (void)fprintf(stderr, "host_frame: %s: %s\n", argv[1], yb_status_text(status));
         return 1;
     }
+    viewer.looks = argc == 4 ? (uint8_t)strtoul(argv[3], NULL, 10) : 0;
     (void)yb_viewer_draw(&viewer, (uint16_t)strtoul(argv[2], NULL, 10), write_band, stdout);
     return fflush(stdout) == 0 && !ferror(stdout) ? 0 : 1;
 }

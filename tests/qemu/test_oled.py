@@ -45,6 +45,20 @@ class Oled(unittest.TestCase):
             self.assertNotEqual(board.next().hash, first.hash)
             self.assertNotEqual(firmware.wrong_pixels(board.picture(), shown), "")
 
+    def test_shadows_and_lines(self):
+        path = firmware.gallery()[0]
+        with firmware.board("lm3s6965evb", path) as board:
+            plain = board.pause()
+            seen = [plain.hash]
+            for key, looks in (("s", 1), ("l", 3), ("s", 2)):
+                frame = board.look(key)
+                expected = firmware.frame_bytes(path, plain.azimuth_bam, looks)
+                self.assertEqual(frame.hash, firmware.frame_hash(expected), f"looks {looks}")
+                self.check_picture(board.picture(), firmware.frame_rows(expected), looks)
+                self.assertNotIn(frame.hash, seen)
+                seen.append(frame.hash)
+            self.assertEqual(board.look("l").hash, plain.hash)
+
     def test_runs_on(self):
         with firmware.board("lm3s6965evb") as board:
             first = board.pause()
