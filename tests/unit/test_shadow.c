@@ -44,7 +44,7 @@ static double clearance(const yb_view_t *view, double x, double y)
     const double ahead_y = view->sun_q14[1] / flat;
     const double rise = view->sun_q14[2] / flat;
     const double from = ground_at(view, x, y);
-    double least = INFINITY;
+    double least = (double)INFINITY;
     /* The first cell's worth of ground is left out: it is what the cell itself is. */
     for (double way = 1500; way < 100000; way += 200) {
         double at_x = x + ahead_x * way;
