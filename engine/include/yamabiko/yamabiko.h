@@ -368,8 +368,8 @@ typedef struct {
 } yb_view_t;
 
 /* The standard: 50 degrees across, true scale, edges up to about a sixteenth of the screen's
- * width, sun in the north-west 30 degrees high, walls, no water, no bound; eye and look as by yb_view_orbit
- * south of the map.
+ * width, sun in the north-west 30 degrees high, walls, no water, no bound; eye and look as by
+ * yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
 
