@@ -344,6 +344,7 @@ void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
     size_t pitch = raster->band->pitch;
     uint8_t *row = raster->band->pixels + (size_t)line * pitch;
     for (int32_t rows = end_y - y, i = 0; i < rows; i++) {
+        /* Two edges have set both sides. NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
         draw_level(raster, depth, row, fix_max(chunk.left[i], 0), fix_min(chunk.right[i], width),
                    near, in_row(raster, pixel, y + i));
         depth += width;

@@ -30,11 +30,11 @@
 #error "YB_MAX_SIDE: 16 to 4096"
 #endif
 
-/* Places on the explicit stack that refines one base triangle: one for each edge that is split of the
- * triangles on the way down. A triangle that would need more is
- * drawn as it is (its neighbours may leave a gap there), and counted in yb_stats_t.depth_limited.
- * 32 were enough for all orbits of random maps; 2 of 200 views from the ground wanted more
- * (tests/unit/test_frame.c). Each takes 56 bytes of yb_frame_t.
+/* Places on the explicit stack that refines one base triangle: one for each edge that is split of
+ * the triangles on the way down. A triangle that would need more is drawn as it is (its neighbours
+ * may leave a gap there), and counted in yb_stats_t.depth_limited. 32 were enough for all orbits of
+ * random maps; 2 of 200 views from the ground wanted more (tests/unit/test_frame.c). Each takes 56
+ * bytes of yb_frame_t.
  */
 #ifndef YB_MAX_LEVELS
 #define YB_MAX_LEVELS 32

@@ -385,8 +385,8 @@ typedef struct {
     uint16_t azimuth_bam;   /* of the picture's upward direction when looking straight down */
     uint16_t zoom_q12;      /* focal length in frame widths: 4392 is 50 degrees across */
     uint16_t exaggerate_q8; /* vertical scale: 256 is true */
-    uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than a
-                             * sixteenth of the screen's width */
+    uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than
+                             * about a sixteenth of the screen's width */
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool lamp; /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
     int32_t lamp_q8[3];
@@ -402,8 +402,8 @@ typedef struct {
                           * mesh has triangles; 0: no bound */
 } yb_view_t;
 
-/* The standard: 50 degrees across, true scale, edges up to a sixteenth of the screen's width, sun
- * in the north-west 30 degrees high, walls, no water, no shadows, no lines, clear air, natural
+/* The standard: 50 degrees across, true scale, edges up to about a sixteenth of the screen's width,
+ * sun in the north-west 30 degrees high, walls, no water, no shadows, no lines, clear air, natural
  * colours, no bound; eye and look as by yb_view_orbit south of the map.
  */
 void yb_view_init(yb_view_t *view, const yb_map_t *map);
