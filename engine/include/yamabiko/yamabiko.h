@@ -16,7 +16,7 @@
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (4.9 KB with 255 vertices)
  *   yb_load_t   working memory of decoding: until YB_OK           (5.5 KB)
- *   yb_frame_t  working memory of drawing: one frame at a time    (4.6 KB)
+ *   yb_frame_t  working memory of drawing: one frame at a time    (4.1 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
  *
  * Threads. Calls on different structs are independent; a loaded map is only read by the frames.
