@@ -98,6 +98,16 @@ static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *
         }
         return;
     }
+    if (raster->screen->format == YB_GREY4) {
+        for (; x < end; x++) {
+            if (near > depth[x]) {
+                uint8_t *at = &row[x >> 1];
+                depth[x] = near;
+                *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
+            }
+        }
+        return;
+    }
     for (; x < end; x++) {
         if (near > depth[x]) {
             depth[x] = near;

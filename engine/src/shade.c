@@ -33,11 +33,11 @@ typedef struct {
     int32_t x, y, z;
 } normal_t;
 
-/* Brings the greatest of three numbers to 15 bits, so that their squares fit 32. */
-static void to_15_bits(normal_t *n)
+/* Brings the greatest of three numbers to 13 bits. */
+static inline void to_13_bits(normal_t *n)
 {
     uint32_t all = (uint32_t)(fix_abs(n->x) | fix_abs(n->y) | fix_abs(n->z));
-    int shift = fix_log2_floor(all | 1) - 14;
+    int shift = fix_log2_floor(all | 1) - 12;
     if (shift >= 0) {
         n->x >>= shift;
         n->y >>= shift;
@@ -49,28 +49,29 @@ static void to_15_bits(normal_t *n)
     }
 }
 
-/* 2^31 over the length of a direction of 15 bits, times a power of two that brings it to 16 bits:
- * 2^*more, 0 or 1.
+/* 2^31 over the length of a direction that is not zero, times the power of two that brings it to 16
+ * bits: 2^*more. Components of up to 15 bits: three squares are below 2^32.
  */
-static uint32_t reciprocal_length(const normal_t *n, int *more)
+static inline uint32_t reciprocal_length(const normal_t *n, int *more)
 {
     uint32_t square = (uint32_t)(n->x * n->x) + (uint32_t)(n->y * n->y) + (uint32_t)(n->z * n->z);
-    *more = square < (uint32_t)1 << 30 ? 1 : 0; /* from 2^28 on */
-    return reciprocal_root(square << 2 * *more);
+    for (*more = 0; square < (uint32_t)1 << 30; ++*more)
+        square <<= 2;
+    return reciprocal_root(square);
 }
 
-/* The shade of a surface by the cosine between its outward normal, of 15 bits, and a unit vector
- * of 14 bits to the light (Lambert). The dot product is within 3 * 2^29.
+/* The shade of a surface by the cosine between its outward normal, of up to 15 bits, and a unit
+ * vector of 14 bits to the light (Lambert). The dot product is within 3 * 2^29.
  */
-static int32_t lambert(const normal_t *n, const int16_t light[3])
+static inline int32_t lambert(const normal_t *n, const int16_t light[3])
 {
     int32_t dot = n->x * light[0] + n->y * light[1] + n->z * light[2];
     if (dot <= 0)
         return DARKEST;
     int more = 0;
     uint32_t root = reciprocal_length(n, &more);
-    uint32_t along = (uint32_t)dot >> 14 << more;
     /* The cosine times 2^31, for a unit vector to the sun: any other is cut. */
+    uint32_t along = (uint32_t)dot >> 14 << more;
     along = along < 65535 ? along : 65535;
     uint32_t cosine_q12 = along * root >> 19;
     /* Rounded up a little, so that level ground and water below a sun 30 degrees high, a half on
@@ -79,18 +80,16 @@ static int32_t lambert(const normal_t *n, const int16_t light[3])
     return fix_min(DARKEST + (int32_t)shade, SHADES - 1);
 }
 
-/* Where the light comes from at a point of the map: the sun, or a lamp not far away. */
-static void find_light(const yb_frame_t *frame, uint32_t place, int32_t raised_q8, int16_t light[3])
+/* Towards the lamp. */
+static void find_lamp(const yb_frame_t *frame, const yb_point_t *at, int32_t raised_q8,
+                      int16_t light[3])
 {
-    const yb_view_t *view = &frame->view;
-    for (int i = 0; i < 3; i++)
-        light[i] = view->sun_q14[i];
-    if (!view->lamp)
-        return;
-    normal_t to_lamp = {view->lamp_q8[0] - (int32_t)(place & 0xffff),
-                        view->lamp_q8[1] - (int32_t)(place >> 16), view->lamp_q8[2] - raised_q8};
+    const int32_t *lamp = frame->view.lamp_q8;
+    normal_t to_lamp = {lamp[0] - (int32_t)(at->place & 0xffff),
+                        lamp[1] - (int32_t)(at->place >> 16), lamp[2] - raised_q8};
+    to_13_bits(&to_lamp);
+    to_lamp.z |= to_lamp.x == 0 && to_lamp.y == 0 ? 1 : 0; /* at the lamp itself: from above */
     int more = 0;
-    to_15_bits(&to_lamp);
     int32_t root = (int32_t)(reciprocal_length(&to_lamp, &more) >> 1);
     light[0] = (int16_t)(to_lamp.x * root >> (16 - more));
     light[1] = (int16_t)(to_lamp.y * root >> (16 - more));
@@ -105,7 +104,8 @@ static inline int32_t raised(const yb_frame_t *frame, int32_t height)
 }
 
 /* A triangle's upward normal, from differences of at most 14 bits: a product of two has 28. */
-static void find_normal(const yb_frame_t *frame, const yb_point_t *const p[3], normal_t *normal)
+static inline void find_normal(const yb_frame_t *frame, const yb_point_t *const p[3],
+                               normal_t *normal)
 {
     int32_t x1 = relief_dx(p[0]->place, p[1]->place);
     int32_t y1 = relief_dy(p[0]->place, p[1]->place);
@@ -124,37 +124,36 @@ static void find_normal(const yb_frame_t *frame, const yb_point_t *const p[3], n
         z2 >>= 1;
     }
     *normal = (normal_t){y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2};
-    to_15_bits(normal);
+    to_13_bits(normal);
 }
 
-/* The mean of three slopes, each with 2^15 added: 21845 / 2^16 is a third. */
-static inline int32_t mean_slope(uint32_t a, uint32_t b, uint32_t c)
-{
-    return ((int32_t)(a + b + c) - 3 * 32768) * 21845 >> 16;
-}
-
-/* Turns a triangle's normal half way towards that of the smooth surface, which the slopes at its
- * corners tell: the facets of a coarse mesh vanish, the fractal detail stays. z of 14 bits times a
- * slope of 2^13, raised by up to 2^3: below 2^30.
+/* Turns a triangle's normal towards that of the smooth surface, which the slopes at its corners
+ * tell, by three parts of seven: the facets of a coarse mesh vanish, the fractal detail stays.
  */
-static void smooth_normal(const yb_frame_t *frame, const yb_point_t *const p[3], normal_t *normal)
+static inline void smooth_normal(const yb_frame_t *frame, const yb_point_t *const p[3],
+                                 normal_t *normal)
 {
-    uint32_t a = p[0]->slope;
-    uint32_t b = p[1]->slope;
-    uint32_t c = p[2]->slope;
-    int32_t east = raised(frame, mean_slope(a & 0xffff, b & 0xffff, c & 0xffff));
-    int32_t north = raised(frame, mean_slope(a >> 16, b >> 16, c >> 16));
-    int32_t half = normal->z >> 1;
-    normal->x = (normal->x >> 1) - (half * east >> 11);
-    normal->y = (normal->y >> 1) - (half * north >> 11);
-    to_15_bits(normal);
+    /* Three quarters of the mean slope, east in the lower half and north in the upper one: sums of
+     * three have 16 bits, with 3 * 2^13 added. */
+    uint32_t sum = (p[0]->slope >> 2 & 0x3fff3fff) + (p[1]->slope >> 2 & 0x3fff3fff) +
+                   (p[2]->slope >> 2 & 0x3fff3fff);
+    int32_t east = raised(frame, (int32_t)(sum & 0xffff) - 3 * 8192);
+    int32_t north = raised(frame, (int32_t)(sum >> 16) - 3 * 8192);
+    /* Below 2^13 * 2^13, raised by up to 2^3. */
+    normal->x -= normal->z * east >> 11;
+    normal->y -= normal->z * north >> 11;
+    normal->z += 3 * normal->z >> 2;
+    if (frame->view.exaggerate_q8 > 256) /* else they are at most 2^13 + 3 * 2^13 */
+        to_13_bits(normal);
 }
 
 /* The shade of a surface at a point, which may stand for a small triangle. */
-static int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t *normal)
+static inline int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t *normal)
 {
+    if (!frame->view.lamp)
+        return lambert(normal, frame->view.sun_q14);
     int16_t light[3];
-    find_light(frame, at->place, raised(frame, at->top_q8), light);
+    find_lamp(frame, at, raised(frame, at->top_q8), light);
     return lambert(normal, light);
 }
 
@@ -172,7 +171,7 @@ static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
  * does not hide the relief.
  */
-static int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t shade)
+static inline int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t shade)
 {
     const yb_shadow_t *shadow = frame->view.shadow;
     if (shadow == NULL || shade <= DARKEST)
@@ -213,6 +212,8 @@ uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3]
     int32_t water = frame->view.water_q8;
     if (corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water)
         return water_pixel(frame, shade, near);
+    if (frame->screen.format != YB_RGB565)
+        return colour_pixel(frame, 0, shade, near);
     /* A third: 5461 / 2^14. */
     int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
     return colour_pixel(frame, hue_of(frame, middle), shade, near);
@@ -253,7 +254,7 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t p
     if (low < view->water_q8) {
         if (high <= view->water_q8)
             return false;
-        static const normal_t level = {0, 0, 1 << 14};
+        static const normal_t level = {0, 0, 1 << 12};
         const int32_t flat = shadowed(frame, p, lit(frame, p[0], &level));
         cut->interval = 0;
         cut->zero = (int32_t)1 << 15;
@@ -288,7 +289,7 @@ uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
     normal_t outward = {dy, -dx, 0};
-    to_15_bits(&outward);
+    to_13_bits(&outward);
     int32_t shade = fix_max(lit(frame, a, &outward) - WALL_DIM, DARKEST);
     int32_t near = fix_max(a->spot.near, b->spot.near);
     int32_t water = frame->view.water_q8;

@@ -84,8 +84,9 @@ static double true_shade(const yb_point_t p[3])
             east += ((p[i].slope & 0xffff) - 32768.0) / 2048 / 3 * scale;
             north += ((p[i].slope >> 16) - 32768.0) / 2048 / 3 * scale;
         }
-        n[0] = n[0] / 2 - n[2] / 2 * east;
-        n[1] = n[1] / 2 - n[2] / 2 * north;
+        n[0] -= n[2] * 0.75 * east;
+        n[1] -= n[2] * 0.75 * north;
+        n[2] *= 1.75;
     }
     double dot = 0;
     for (int i = 0; i < 3; i++)
