@@ -16,15 +16,28 @@ void yb_judge_free(yb_judge_t *judge);
 
 /* How bad a code is, in metres: root of the mean square of the height differences at the samples,
  * to which those of the rises from sample to sample are added, at half weight, and that of the
- * highest place. A negative number if the code is impossible. The judge keeps the differences until
- * the next call.
+ * highest place. A negative number if the code is impossible.
  */
 double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size);
 
-/* Where the surface judged last is farthest from the truth but within `share` (0 to 1, a random
- * number) of the samples' total squared error: a place drawn in proportion to it.
+/* Keeps the differences of the surface judged last: those below are from it. It must be possible. */
+void yb_judge_keep(yb_judge_t *judge);
+
+/* Where the surface kept is farthest from the truth but within `share` (0 to 1, a random number) of
+ * the samples' total squared error: a place drawn in proportion to it.
  */
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m);
+
+/* A place where a code was changed, in shares of the frame, and what came of it. */
+typedef struct {
+    double east, north;
+    double worse; /* a share of the score */
+} yb_judge_site_t;
+
+/* Divides the difference between the surface judged last and the one kept among the places where
+ * the code was changed: what a sample says counts for the nearest of them.
+ */
+void yb_judge_divide(const yb_judge_t *judge, yb_judge_site_t *site, int count);
 
 /* The exact figure: yb_map_height at all cells of the grid (at most 256 a side), in metres. */
 double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid);

@@ -18,4 +18,7 @@ typedef struct {
  */
 bool yb_search_move(yb_search_mover_t *mover);
 
+/* The same for one move of a point, mover->point. False: the set is as it was. */
+bool yb_search_move_point(yb_search_mover_t *mover);
+
 #endif
