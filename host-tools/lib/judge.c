@@ -276,39 +276,40 @@ static double square_at(const yb_judge_t *judge, const float *off, int column, i
     return here * here + (double)slope_weight * (east * east + north * north);
 }
 
-static yb_judge_site_t *nearest_site(yb_judge_site_t *site, int count, double east, double north)
+/* The change whose site is nearest. */
+static int change_at(const yb_judge_site_t *site, int sites, double east, double north)
 {
-    yb_judge_site_t *nearest = site;
+    int change = 0;
     double least = HUGE_VAL;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < sites; i++) {
         double x = site[i].east - east;
         double y = site[i].north - north;
         if (x * x + y * y < least) {
             least = x * x + y * y;
-            nearest = &site[i];
+            change = site[i].change;
         }
     }
-    return nearest;
+    return change;
 }
 
-void yb_judge_divide(const yb_judge_t *judge, yb_judge_site_t *site, int count)
+void yb_judge_divide(const yb_judge_t *judge, const yb_judge_site_t *site, int sites, double *worse,
+                     int changes)
 {
     double total = 0;
-    for (int i = 0; i < count; i++)
-        site[i].worse = 0;
+    for (int i = 0; i < changes; i++)
+        worse[i] = 0;
     for (int row = 0; row < judge->up.count; row++)
         for (int column = 0; column < judge->across.count; column++) {
             double before = square_at(judge, judge->kept_m, column, row);
             double after = square_at(judge, judge->found_m, column, row);
             total += before;
             if (after != before)
-                nearest_site(site, count, (double)column / (judge->across.count - 1),
-                             (double)row / (judge->up.count - 1))
-                    ->worse += after - before;
+                worse[change_at(site, sites, (double)column / (judge->across.count - 1),
+                                (double)row / (judge->up.count - 1))] += after - before;
         }
     /* The score is a root: half of the share by which the squares grow. */
-    for (int i = 0; i < count; i++)
-        site[i].worse /= 2 * total;
+    for (int i = 0; i < changes; i++)
+        worse[i] /= 2 * total;
 }
 
 double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid)

@@ -28,16 +28,18 @@ void yb_judge_keep(yb_judge_t *judge);
  */
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m);
 
-/* A place where a code was changed, in shares of the frame, and what came of it. */
+/* A place where a code was changed, in shares of the frame, and by which of several changes. */
 typedef struct {
     double east, north;
-    double worse; /* a share of the score */
+    int change;
 } yb_judge_site_t;
 
-/* Divides the difference between the surface judged last and the one kept among the places where
- * the code was changed: what a sample says counts for the nearest of them.
+/* Divides the difference between the surface judged last and the one kept among the changes: what a
+ * sample says counts for the change whose site is nearest. worse[change] becomes a share of the
+ * score.
  */
-void yb_judge_divide(const yb_judge_t *judge, yb_judge_site_t *site, int count);
+void yb_judge_divide(const yb_judge_t *judge, const yb_judge_site_t *site, int sites, double *worse,
+                     int changes);
 
 /* The exact figure: yb_map_height at all cells of the grid (at most 256 a side), in metres. */
 double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid);

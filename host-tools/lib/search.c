@@ -5,8 +5,7 @@
 
 #include "contour_code.h"
 #include "random.h"
-#include "search_moves.h"
-#include "simplify.h"
+#include "search_batch.h"
 
 enum {
     REPORTED = 512 /* trials */
@@ -18,11 +17,10 @@ static const double fine_of_share = 1.6e-2;
 /* A code that fills less of the budget wants to grow. */
 static const double full_share = 0.97;
 
-/* Share of the turns that move several points at once: one in so many. */
+/* Share of the turns that try several changes at once: one for so many points. */
 static const double many_share = 0.3;
 enum {
-    POINTS_OF_ONE = 20,
-    MOST_MOVED = 16
+    POINTS_OF_ONE = 20
 };
 
 /* What a code costs: how far it is from the truth, and so much for each bit. Codes that are a
@@ -41,15 +39,10 @@ typedef struct {
     yb_search_mover_t mover;
     double heat;
     double now_cost, best_cost;
+    double now_share; /* of the budget */
     long trials; /* done */
     yb_contour_set_t now, next, best;
 } state_t;
-
-/* A point that was moved along with others. */
-typedef struct {
-    int point;
-    yb_step_t to;
-} moved_t;
 
 /* One trial: of the next code. */
 static verdict_t judge_next(state_t *state)
@@ -74,6 +67,7 @@ static void take_next(state_t *state, verdict_t verdict)
 {
     state->now = state->next;
     state->now_cost = verdict.cost;
+    state->now_share = verdict.share;
     state->mover.grows = verdict.share < full_share;
     yb_judge_keep(state->task->judge);
     if (verdict.fits && verdict.cost < state->best_cost) {
@@ -102,63 +96,39 @@ static void try_one(state_t *state)
     consider(state, judge_next(state));
 }
 
-static bool is_moved(const moved_t *moved, int count, int point)
+/* What a bit more costs, as a share. */
+static double price_of_bit(const state_t *state)
 {
-    for (int i = 0; i < count; i++)
-        if (moved[i].point == point)
-            return true;
-    return false;
+    double of_share = cost_of_share + (state->now_share > 1 ? fine_of_share : 0);
+    return 100 * of_share / (8.0 * (double)state->task->most_bytes);
 }
 
-/* Moves points of the next code, each once, such that no lines meet. Answers how many. */
-static int move_points(state_t *state, moved_t *moved)
-{
-    const yb_search_mover_t *mover = &state->mover;
-    int most = state->now.point_count / POINTS_OF_ONE;
-    most = most < 1 ? 1 : most > MOST_MOVED ? MOST_MOVED : most;
-    int count = 0;
-    state->next = state->now;
-    for (int i = 0; i < most; i++) {
-        const yb_contour_set_t before = state->next;
-        if (!yb_search_move_point(&state->mover))
-            continue;
-        if (is_moved(moved, count, mover->point) ||
-            !yb_simplify_point_fits(&state->next, mover->contour, mover->point - mover->first))
-            state->next = before;
-        else
-            moved[count++] = (moved_t){mover->point, state->next.point[mover->point]};
-    }
-    return count;
-}
-
-/* Several points at once: a change is felt near its point only, so that one look at the surface
- * says which of the moves are good. The others are taken back, and the rest is judged again.
- */
+/* Several changes at once. Those that are not good are taken back, and the rest is judged again. */
 static void try_many(state_t *state)
 {
-    moved_t moved[MOST_MOVED];
-    yb_judge_site_t site[MOST_MOVED];
-    int count = move_points(state, moved);
-    if (count == 0)
+    yb_batch_t batch;
+    yb_judge_site_t site[YB_BATCH_SITES];
+    double worse[YB_BATCH_CHANGES];
+    int most = state->now.point_count / POINTS_OF_ONE;
+    yb_batch_draw(&batch, &state->mover, &state->now, most < 1 ? 1 : most);
+    if (batch.count == 0)
         return;
     verdict_t verdict = judge_next(state);
     if (verdict.cost < 0)
         return;
-    for (int i = 0; i < count; i++) {
-        yb_step_t from = state->now.point[moved[i].point];
-        site[i].east = (double)from.x / state->now.east;
-        site[i].north = (double)from.y / state->now.north;
+    int sites = yb_batch_sites(&batch, &state->now, site);
+    yb_judge_divide(state->task->judge, site, sites, worse, batch.count);
+    yb_batch_t good = {.count = 0};
+    for (int i = 0; i < batch.count; i++)
+        if (is_welcome(state, worse[i] + price_of_bit(state) * yb_batch_bits(&batch.change[i])))
+            good.change[good.count++] = batch.change[i];
+    if (good.count == 0)
+        return;
+    if (good.count < batch.count) {
+        yb_batch_apply(&good, &state->now, &state->next);
+        verdict = judge_next(state);
     }
-    yb_judge_divide(state->task->judge, site, count);
-    int good = 0;
-    for (int i = 0; i < count; i++) {
-        if (is_welcome(state, site[i].worse))
-            good++;
-        else
-            state->next.point[moved[i].point] = state->now.point[moved[i].point];
-    }
-    if (good > 0)
-        consider(state, good < count ? judge_next(state) : verdict);
+    consider(state, verdict);
 }
 
 static void report(yb_progress_t *progress, double share)

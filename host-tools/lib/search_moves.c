@@ -527,9 +527,21 @@ static bool grow(yb_search_mover_t *mover)
                         : add_bay(mover);
 }
 
-bool yb_search_move_point(yb_search_mover_t *mover)
+bool yb_search_move_locally(yb_search_mover_t *mover, yb_local_move_t kind)
 {
-    return pick_point(mover) && change_point(mover);
+    switch (kind) {
+    case YB_MOVE_POINT:
+        return pick_point(mover) && change_point(mover);
+    case YB_MOVE_HEIGHT:
+        return pick_point(mover) && change_height(mover);
+    case YB_MOVE_INSERT:
+        return pick_point(mover) && add_point(mover);
+    case YB_MOVE_REMOVE:
+        return pick_point(mover) && mover->set->contour[mover->contour].count > 1 &&
+               remove_point(mover);
+    default:
+        return add_spot(mover);
+    }
 }
 
 bool yb_search_move(yb_search_mover_t *mover)
