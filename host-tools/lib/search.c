@@ -18,7 +18,7 @@ static const double fine_of_share = 1.6e-2;
 static const double full_share = 0.97;
 
 /* Share of the turns that try several changes at once: one for so many points. */
-static const double many_share = 0.3;
+static const double many_share = 0.5;
 enum {
     POINTS_OF_ONE = 20
 };
