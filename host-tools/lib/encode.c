@@ -19,7 +19,7 @@ enum {
     FEW_BYTES = 40,        /* below that, corner heights cost too much to begin with */
     DRAFTS = 4,            /* one for each spacing of the lattice */
     FINALISTS = 2,
-    MANY_BYTES = 150 /* from there on, trials are too few for more than one */
+    MANY_BYTES = 150 /* from there on, points are too many for one change a trial, and two finalists */
 };
 
 /* Tolerances of the drafts as shares of the frame's longer side. */
@@ -235,6 +235,7 @@ static void search_draft(const encoder_t *encoder, yb_judge_t *judge, draft_t *d
     search.grid = encoder->grid;
     search.judge = judge;
     search.most_bytes = encoder->task->most_bytes;
+    search.many = search.most_bytes >= MANY_BYTES;
     search.level = level;
     search.levels = encoder->levels.count;
     draft->score_m = yb_search_run(&search, &draft->set);

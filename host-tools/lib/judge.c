@@ -249,13 +249,13 @@ void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, doubl
     double total = 0;
     int samples = samples_of(judge);
     for (int i = 0; i < samples; i++) {
-        double off = (double)judge->kept_m[i];
+        double off = (double)judge->found_m[i];
         total += off * off;
     }
     double until = share * total;
     int at = 0;
     for (double sum = 0; at < samples - 1; at++) {
-        double off = (double)judge->kept_m[at];
+        double off = (double)judge->found_m[at];
         sum += off * off;
         if (sum >= until)
             break;

@@ -157,7 +157,7 @@ static void run(state_t *state)
             reported += REPORTED;
         }
         cool(state);
-        if (yb_random_share(&state->mover.random) < many_share)
+        if (task->many && yb_random_share(&state->mover.random) < many_share)
             try_many(state);
         else
             try_one(state);
@@ -176,6 +176,7 @@ double yb_search_run(const yb_search_t *search, yb_contour_set_t *set)
     state->next = *set;
     verdict_t verdict = judge_next(state);
     state->best_cost = HUGE_VAL;
+    state->trials = 0;
     if (verdict.cost >= 0) {
         take_next(state, verdict);
         run(state);

@@ -16,7 +16,7 @@ enum {
 /* Share of the moves that go to a neighbouring place of the lattice, or stay. */
 static const double near_share = 0.7;
 
-/* Share of the points that are chosen because the surface near them is wrong. */
+/* Share of the points that are chosen because the surface near them is wrong, where there are many. */
 static const double wrong_share = 0.6;
 
 typedef bool (*pick_fn)(yb_search_mover_t *mover);
@@ -69,8 +69,8 @@ static void wrong_place(yb_search_mover_t *mover, double *x, double *y)
 {
     const yb_grid_t *grid = mover->search->grid;
     yb_judge_worst(mover->search->judge, yb_random_share(&mover->random), x, y);
-    *x *= mover->set->east / yb_grid_width_m(grid);
-    *y *= mover->set->north / yb_grid_depth_m(grid);
+    *x = *x / yb_grid_width_m(grid) * mover->set->east;
+    *y = *y / yb_grid_depth_m(grid) * mover->set->north;
 }
 
 /* The point nearest to a wrong place. */
@@ -99,7 +99,7 @@ static bool pick_point(yb_search_mover_t *mover)
     const yb_contour_set_t *set = mover->set;
     if (set->point_count == 0)
         return false;
-    mover->point = yb_random_share(&mover->random) < wrong_share
+    mover->point = mover->search->many && yb_random_share(&mover->random) < wrong_share
                        ? wrong_point(mover)
                        : yb_random_below(&mover->random, set->point_count);
     mover->contour = 0;
@@ -522,9 +522,11 @@ static bool change_twice(yb_search_mover_t *mover)
 static bool grow(yb_search_mover_t *mover)
 {
     double kind = yb_random_share(&mover->random);
-    return kind < 0.6   ? add_spot(mover)
-           : kind < 0.8 ? pick_point(mover) && add_point(mover)
-                        : add_bay(mover);
+    if (kind < 0.6)
+        return add_spot(mover);
+    if (mover->search->many && kind > 0.8)
+        return add_bay(mover);
+    return pick_point(mover) && add_point(mover);
 }
 
 bool yb_search_move_locally(yb_search_mover_t *mover, yb_local_move_t kind)
@@ -547,7 +549,7 @@ bool yb_search_move_locally(yb_search_mover_t *mover, yb_local_move_t kind)
 bool yb_search_move(yb_search_mover_t *mover)
 {
     static const struct {
-        int weight;   /* of 224 */
+        int weight;   /* of 224, of 216 without bays */
         pick_fn pick; /* what it is for; NULL: that is its own choice */
         change_fn change;
     } moves[] = {{70, pick_point, change_point},
@@ -568,15 +570,15 @@ bool yb_search_move(yb_search_mover_t *mover)
                  {1, pick_contour, transfer_ring},
                  {1, NULL, add_crossing},
                  {1, pick_contour, transfer_crossing},
-                 {4, NULL, add_bay},
-                 {4, pick_contour, transfer_bay},
                  {4, pick_contour, turn_line},
                  {2, NULL, reorder},
                  {3, NULL, change_unit},
-                 {1, NULL, change_base}};
+                 {1, NULL, change_base},
+                 {4, NULL, add_bay},
+                 {4, pick_contour, transfer_bay}};
     if (mover->grows && yb_random_share(&mover->random) < 0.5)
         return grow(mover);
-    int ticket = yb_random_below(&mover->random, 224);
+    int ticket = yb_random_below(&mover->random, mover->search->many ? 224 : 216);
     int i = 0;
     while (ticket >= moves[i].weight)
         ticket -= moves[i++].weight;

@@ -301,6 +301,8 @@ bool yb_simplify_point_fits(const yb_contour_set_t *set, int contour, int at)
     int count = set->contour[contour].count;
     bool open = set->contour[contour].open;
     const yb_step_t *point = &set->point[yb_contour_set_first(set, contour)];
+    if (open && count == 2 && along_frame(set, point[0], point[1]))
+        return false;
     for (int back = 0; back < (count > 1 ? 2 : 1); back++) {
         int one = (at + count - back) % count;
         if (one >= segment_count(count, open))

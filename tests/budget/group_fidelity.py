@@ -20,6 +20,8 @@ import subprocess
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+DATA = pathlib.Path(os.environ.get("YB_DATA", ROOT.parent / "shared" / "data"))
+WINDOWS = DATA / "windows"
 PROGRAM = ROOT / "build" / "host-release" / "bin" / "yamabiko"
 SIZES = {60: (), 100: (), 200: ("--effort", "3", "--vertices", "1000"),
          400: ("--effort", "3", "--vertices", "1000")}
@@ -34,8 +36,8 @@ def tell(verb, *arguments):
     return json.loads(run.stdout)
 
 
-def baselines(data):
-    with open(data / "BASELINES.tsv", encoding="utf-8") as file:
+def baselines():
+    with open(DATA / "BASELINES.tsv", encoding="utf-8") as file:
         return {row["window"]: row for row in csv.DictReader(file, delimiter="\t")}
 
 
@@ -58,9 +60,9 @@ def errors(windows, lines, size, options, folder, pool):
         yield f"nrmse of {size} B not below that of {line}", "all windows", above, "windows"
 
 
-def similarity(data, folder, pool):
+def similarity(folder, pool):
     def measure(name):
-        window = data / "windows" / f"{name}.tif"
+        window = WINDOWS / f"{name}.tif"
         out = pathlib.Path(folder) / f"{name}-k.yb"
         tell("encode", window, "-o", out, "--bytes", K_BYTES, "--target-k", "0.8")
         return tell("evaluate", out, window)
@@ -73,10 +75,10 @@ def similarity(data, folder, pool):
         yield "k, spectrum", name, f"{told['detail']['spectrum']:.3f}", "octaves"
 
 
-def encoding_time(data, folder):
+def encoding_time(folder):
     """CPU seconds of one encoding at default effort: what it takes on one core."""
     before = os.times().children_user
-    tell("encode", data / "windows" / "fuji.tif", "-o", pathlib.Path(folder) / "time.yb")
+    tell("encode", WINDOWS / "fuji.tif", "-o", pathlib.Path(folder) / "time.yb")
     yield "time of 100 B, one core", "fuji", f"{os.times().children_user - before:.0f}", "s"
 
 
@@ -90,15 +92,20 @@ def against_paper():
         yield "compact against paper", "mean of the maps", f"{sum(shares) / len(shares):.3f}", "of bytes"
 
 
+def lacks():
+    if not any(WINDOWS.glob("*.tif")):
+        return f"there are no relief windows in {WINDOWS}: set YB_DATA"
+    return None
+
+
 def measure():
     yield from against_paper()
-    data = pathlib.Path(os.environ.get("YB_DATA", ROOT.parent / "shared" / "data"))
-    windows = sorted((data / "windows").glob("*.tif"))
+    windows = sorted(WINDOWS.glob("*.tif"))
     if not windows:
         return
-    lines = baselines(data)
+    lines = baselines()
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        yield from encoding_time(data, folder)
+        yield from encoding_time(folder)
         for size, options in SIZES.items():
             yield from errors(windows, lines, size, options, folder, pool)
-        yield from similarity(data, folder, pool)
+        yield from similarity(folder, pool)
