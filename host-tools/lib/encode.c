@@ -19,7 +19,7 @@ enum {
     FEW_BYTES = 40,        /* below that, corner heights cost too much to begin with */
     DRAFTS = 4,            /* one for each spacing of the lattice */
     FINALISTS = 2,
-    MANY_BYTES = 150 /* from there on, points are too many for one change a trial, and two finalists */
+    MANY_BYTES = 150 /* from there on: one finalist, and several changes in one trial */
 };
 
 /* Tolerances of the drafts as shares of the frame's longer side. */

@@ -23,8 +23,8 @@ double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size);
 /* Keeps the differences of the surface judged last, to compare later ones with. */
 void yb_judge_keep(yb_judge_t *judge);
 
-/* Where the surface judged last is farthest from the truth but within `share` (0 to 1, a random number) of
- * the samples' total squared error: a place drawn in proportion to it.
+/* Where the surface judged last is farthest from the truth but within `share` (0 to 1, a random
+ * number) of the samples' total squared error: a place drawn in proportion to it.
  */
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m);
 

@@ -40,7 +40,7 @@ typedef struct {
     double heat;
     double now_cost, best_cost;
     double now_share; /* of the budget */
-    long trials; /* done */
+    long trials;      /* done */
     yb_contour_set_t now, next, best;
 } state_t;
 

@@ -5,7 +5,8 @@
 
 double yb_batch_bits(const yb_batch_change_t *change)
 {
-    static const double bits[] = {[YB_MOVE_INSERT] = 10, [YB_MOVE_REMOVE] = -10, [YB_MOVE_SPOT] = 14};
+    static const double bits[] = {
+        [YB_MOVE_INSERT] = 10, [YB_MOVE_REMOVE] = -10, [YB_MOVE_SPOT] = 14};
     return bits[change->kind];
 }
 

@@ -1,5 +1,5 @@
-/* Several small changes of a code that are tried at once. Each is felt near its place only, so that one
- * look at the surface says which of them are good.
+/* Several small changes of a code that are tried at once. Each is felt near its place only, so that
+ * one look at the surface says which of them are good.
  */
 #ifndef YB_SEARCH_BATCH_H
 #define YB_SEARCH_BATCH_H
@@ -25,8 +25,8 @@ typedef struct {
     yb_batch_change_t change[YB_BATCH_CHANGES]; /* the highest points first */
 } yb_batch_t;
 
-/* Draws up to `most` changes of the code `now` of which no two are of one point and none makes lines
- * meet. Uses mover->set, which becomes the code with all of them.
+/* Draws up to `most` changes of the code `now` of which no two are of one point and none makes
+ * lines meet. Uses mover->set, which becomes the code with all of them.
  */
 void yb_batch_draw(yb_batch_t *batch, yb_search_mover_t *mover, const yb_contour_set_t *now,
                    int most);

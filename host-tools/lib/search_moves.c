@@ -16,7 +16,8 @@ enum {
 /* Share of the moves that go to a neighbouring place of the lattice, or stay. */
 static const double near_share = 0.7;
 
-/* Share of the points that are chosen because the surface near them is wrong, where there are many. */
+/* Where there are many points: share of those that are chosen because the surface is wrong there.
+ */
 static const double wrong_share = 0.6;
 
 typedef bool (*pick_fn)(yb_search_mover_t *mover);

@@ -275,7 +275,7 @@ static bool meets_own(const yb_step_t *point, int count, bool open, int one)
         yb_step_t d = point[(k + 1) % count];
         if (k == one)
             continue;
-        if (k == (one + 1) % count ? folds(a, b, d)
+        if (k == (one + 1) % count   ? folds(a, b, d)
             : one == (k + 1) % count ? folds(c, a, b)
                                      : segments_meet(a, b, c, d))
             return true;

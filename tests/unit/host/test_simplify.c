@@ -169,10 +169,8 @@ static void test_point_fits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error_is_bounded),
-        cmocka_unit_test(test_closed_keeps_three),
-        cmocka_unit_test(test_lattice),
-        cmocka_unit_test(test_fits),
+        cmocka_unit_test(test_error_is_bounded), cmocka_unit_test(test_closed_keeps_three),
+        cmocka_unit_test(test_lattice),          cmocka_unit_test(test_fits),
         cmocka_unit_test(test_point_fits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
