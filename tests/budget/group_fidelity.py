@@ -72,7 +72,7 @@ def similarity(folder, pool):
         yield "k, bytes", name, told["bytes"], "B"
         yield "k, nrmse", name, f"{told['smooth']['nrmse']:.3f}", "std"
         yield "k, slope", name, f"{told['detail']['slope_deg']:.2f}", "degrees"
-        yield "k, spectrum", name, f"{told['detail']['spectrum']:.3f}", "octaves"
+        yield "k, spectrum", name, f"{told['spectrum']['detail']:.3f}", "octaves"
 
 
 def encoding_time(folder):
