@@ -18,7 +18,8 @@ enum {
     USUAL_TRIALS = 224000, /* at effort 5; each step is three times as many */
     FEW_BYTES = 40,        /* below that, corner heights cost too much to begin with */
     DRAFTS = 4,            /* one for each spacing of the lattice */
-    FINALISTS = 2
+    FINALISTS = 2,
+    MANY_BYTES = 150 /* from there on: one finalist, and several changes in one trial */
 };
 
 /* Tolerances of the drafts as shares of the frame's longer side. */
@@ -158,8 +159,8 @@ static void choose_spacings(encoder_t *encoder)
     static const struct {
         size_t least_bytes;
         int spacing[DRAFTS];
-    } by_size[] = {{300, {2, 3, 4, 5}},
-                   {150, {3, 4, 5, 6}},
+    } by_size[] = {{300, {3, 4, 5, 6}},
+                   {MANY_BYTES, {4, 5, 6, 7}},
                    {75, {4, 5, 6, 8}},
                    {45, {5, 6, 8, 10}},
                    {0, {6, 8, 10, 13}}};
@@ -234,6 +235,7 @@ static void search_draft(const encoder_t *encoder, yb_judge_t *judge, draft_t *d
     search.grid = encoder->grid;
     search.judge = judge;
     search.most_bytes = encoder->task->most_bytes;
+    search.many = search.most_bytes >= MANY_BYTES;
     search.level = level;
     search.levels = encoder->levels.count;
     draft->score_m = yb_search_run(&search, &draft->set);
@@ -301,8 +303,9 @@ static bool search_best(encoder_t *encoder)
 {
     if (!search_drafts(encoder, encoder->drafts, hot, first_part))
         return false;
-    if (encoder->drafts > FINALISTS)
-        encoder->drafts = FINALISTS;
+    int finalists = encoder->task->most_bytes < MANY_BYTES ? FINALISTS : 1;
+    if (encoder->drafts > finalists)
+        encoder->drafts = finalists;
     return search_drafts(encoder, encoder->drafts, warm, 1 - first_part);
 }
 

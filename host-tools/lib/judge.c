@@ -29,7 +29,8 @@ struct yb_judge {
     double width_m, depth_m;
     axis_t across, up;
     float *truth_m; /* row 0 is the southernmost */
-    float *found_m;
+    float *found_m; /* the surface judged last; then how far it is off */
+    float *kept_m;  /* the same of the one kept */
     float metres_per_q8;
     float base_m;
     double summit_east, summit_north; /* its place as shares of the frame */
@@ -53,7 +54,8 @@ yb_judge_t *yb_judge_new(const yb_grid_t *grid, int side)
     size_t samples = (size_t)judge->across.count * (size_t)judge->up.count;
     judge->truth_m = malloc(samples * sizeof(float));
     judge->found_m = malloc(samples * sizeof(float));
-    if (judge->truth_m == NULL || judge->found_m == NULL) {
+    judge->kept_m = malloc(samples * sizeof(float));
+    if (judge->truth_m == NULL || judge->found_m == NULL || judge->kept_m == NULL) {
         yb_judge_free(judge);
         return NULL;
     }
@@ -75,6 +77,7 @@ void yb_judge_free(yb_judge_t *judge)
         return;
     free(judge->truth_m);
     free(judge->found_m);
+    free(judge->kept_m);
     free(judge);
 }
 
@@ -209,6 +212,11 @@ static double sum_squares(const yb_judge_t *judge)
     return all;
 }
 
+static int samples_of(const yb_judge_t *judge)
+{
+    return judge->across.count * judge->up.count;
+}
+
 double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
 {
     if (yb_map_load(&judge->map, &judge->load, code, size) != YB_OK)
@@ -224,17 +232,22 @@ double yb_judge_score_m(yb_judge_t *judge, const uint8_t *code, size_t size)
         const yb_index_t *corner = judge->map.triangle[i];
         sample_triangle(judge, &vertex[corner[0]], &vertex[corner[1]], &vertex[corner[2]]);
     }
-    int samples = judge->across.count * judge->up.count;
+    int samples = samples_of(judge);
     for (int i = 0; i < samples; i++)
         judge->found_m[i] -= judge->truth_m[i];
     double summit = (double)judge->summit_found_m - judge->summit_m;
     return sqrt(sum_squares(judge) / samples + summit_weight * summit * summit);
 }
 
+void yb_judge_keep(yb_judge_t *judge)
+{
+    memcpy(judge->kept_m, judge->found_m, (size_t)samples_of(judge) * sizeof(float));
+}
+
 void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, double *north_m)
 {
     double total = 0;
-    int samples = judge->across.count * judge->up.count;
+    int samples = samples_of(judge);
     for (int i = 0; i < samples; i++) {
         double off = (double)judge->found_m[i];
         total += off * off;
@@ -251,6 +264,52 @@ void yb_judge_worst(const yb_judge_t *judge, double share, double *east_m, doubl
     int row = at / judge->across.count;
     *east_m = column * judge->width_m / (judge->across.count - 1);
     *north_m = row * judge->depth_m / (judge->up.count - 1);
+}
+
+/* What the sample `at` adds to the sum of squares. */
+static double square_at(const yb_judge_t *judge, const float *off, int column, int row)
+{
+    int at = row * judge->across.count + column;
+    double here = (double)off[at];
+    double east = column + 1 < judge->across.count ? (double)off[at + 1] - here : 0;
+    double north = row + 1 < judge->up.count ? (double)off[at + judge->across.count] - here : 0;
+    return here * here + (double)slope_weight * (east * east + north * north);
+}
+
+/* The change whose site is nearest. */
+static int change_at(const yb_judge_site_t *site, int sites, double east, double north)
+{
+    int change = 0;
+    double least = HUGE_VAL;
+    for (int i = 0; i < sites; i++) {
+        double x = site[i].east - east;
+        double y = site[i].north - north;
+        if (x * x + y * y < least) {
+            least = x * x + y * y;
+            change = site[i].change;
+        }
+    }
+    return change;
+}
+
+void yb_judge_divide(const yb_judge_t *judge, const yb_judge_site_t *site, int sites, double *worse,
+                     int changes)
+{
+    double total = 0;
+    for (int i = 0; i < changes; i++)
+        worse[i] = 0;
+    for (int row = 0; row < judge->up.count; row++)
+        for (int column = 0; column < judge->across.count; column++) {
+            double before = square_at(judge, judge->kept_m, column, row);
+            double after = square_at(judge, judge->found_m, column, row);
+            total += before;
+            if (after != before)
+                worse[change_at(site, sites, (double)column / (judge->across.count - 1),
+                                (double)row / (judge->up.count - 1))] += after - before;
+        }
+    /* The score is a root: half of the share by which the squares grow. */
+    for (int i = 0; i < changes; i++)
+        worse[i] /= 2 * total;
 }
 
 double yb_judge_map_rmse_m(const yb_map_t *map, const yb_grid_t *grid)

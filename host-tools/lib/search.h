@@ -1,7 +1,8 @@
 /* The encoder's search: small changes to a code, kept when the judge finds the surface nearer to
  * the truth, or, at first, not much farther (simulated annealing). Changes move, add and take away
- * feature points, heights and whole contours inside a budget of bytes. The number of trials is
- * fixed and the random numbers are our own: equal input gives equal bytes on every machine.
+ * feature points, heights and whole contours inside a budget of bytes, one at a time or several
+ * that are felt in different places. The number of trials is fixed and the random numbers are our
+ * own: equal input gives equal bytes on every machine.
  */
 #ifndef YB_SEARCH_H
 #define YB_SEARCH_H
@@ -25,6 +26,7 @@ typedef struct {
     size_t most_bytes;
     const uint16_t *level; /* heights that lines may have, rising, in the code's units */
     int levels;            /* and how many; 0: any height */
+    bool many; /* there are many points: several changes in one trial, and where the error is */
     long trials;
     double hot, cold; /* temperatures at begin and end, as shares of the error */
     uint64_t seed;

@@ -16,6 +16,10 @@ enum {
 /* Share of the moves that go to a neighbouring place of the lattice, or stay. */
 static const double near_share = 0.7;
 
+/* Where there are many points: share of those that are chosen because the surface is wrong there.
+ */
+static const double wrong_share = 0.6;
+
 typedef bool (*pick_fn)(yb_search_mover_t *mover);
 typedef bool (*change_fn)(yb_search_mover_t *mover);
 
@@ -61,13 +65,44 @@ static double height_spread(const yb_search_mover_t *mover)
     return mover->search->grid->std_m / yb_unit_m(mover->set->unit) * (0.08 + 0.6 * mover->heat);
 }
 
-/* Chooses what a change is for: one of all points, and its contour. False: there is none. */
+/* Draws a place, more often where the surface is wrong; in steps. */
+static void wrong_place(yb_search_mover_t *mover, double *x, double *y)
+{
+    const yb_grid_t *grid = mover->search->grid;
+    yb_judge_worst(mover->search->judge, yb_random_share(&mover->random), x, y);
+    *x = *x / yb_grid_width_m(grid) * mover->set->east;
+    *y = *y / yb_grid_depth_m(grid) * mover->set->north;
+}
+
+/* The point nearest to a wrong place. */
+static int wrong_point(yb_search_mover_t *mover)
+{
+    const yb_contour_set_t *set = mover->set;
+    double x = 0;
+    double y = 0;
+    wrong_place(mover, &x, &y);
+    double least = HUGE_VAL;
+    int nearest = 0;
+    for (int i = 0; i < set->point_count; i++) {
+        double dx = set->point[i].x - x;
+        double dy = set->point[i].y - y;
+        if (dx * dx + dy * dy < least) {
+            least = dx * dx + dy * dy;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/* Chooses what a change is for: a point, and its contour. False: there is none. */
 static bool pick_point(yb_search_mover_t *mover)
 {
     const yb_contour_set_t *set = mover->set;
     if (set->point_count == 0)
         return false;
-    mover->point = yb_random_below(&mover->random, set->point_count);
+    mover->point = mover->search->many && yb_random_share(&mover->random) < wrong_share
+                       ? wrong_point(mover)
+                       : yb_random_below(&mover->random, set->point_count);
     mover->contour = 0;
     mover->first = 0;
     while (mover->point >= mover->first + set->contour[mover->contour].count)
@@ -248,13 +283,11 @@ static bool remove_contour(yb_search_mover_t *mover)
 static yb_step_t wanted_place(yb_search_mover_t *mover)
 {
     yb_contour_set_t *set = mover->set;
-    double east_m = 0;
-    double north_m = 0;
-    yb_judge_worst(mover->search->judge, yb_random_share(&mover->random), &east_m, &north_m);
-    double width = yb_grid_width_m(mover->search->grid);
-    double depth = yb_grid_depth_m(mover->search->grid);
-    int x = (int)lround(east_m / width * set->east + yb_random_bell(&mover->random, 8));
-    int y = (int)lround(north_m / depth * set->north + yb_random_bell(&mover->random, 8));
+    double wrong_x = 0;
+    double wrong_y = 0;
+    wrong_place(mover, &wrong_x, &wrong_y);
+    int x = (int)lround(wrong_x + yb_random_bell(&mover->random, 8));
+    int y = (int)lround(wrong_y + yb_random_bell(&mover->random, 8));
     int margin_x = margin_of(set->east);
     int margin_y = margin_of(set->north);
     int unit = set->spacing;
@@ -350,6 +383,42 @@ static bool transfer_ring(yb_search_mover_t *mover)
 static bool transfer_crossing(yb_search_mover_t *mover)
 {
     return remove_contour(mover) && add_crossing(mover);
+}
+
+/* A line of three points that cuts a piece off one side: it says how high the frame is there. */
+static bool add_bay(yb_search_mover_t *mover)
+{
+    yb_contour_set_t *set = mover->set;
+    int side = yb_random_below(&mover->random, 4);
+    int unit = set->spacing;
+    yb_step_t middle = frame_place(mover, side);
+    int half = (1 + yb_random_below(&mover->random, 4)) * unit;
+    int deep = (2 + yb_random_below(&mover->random, 3)) * unit;
+    int aside = (yb_random_below(&mover->random, 3) - 1) * unit;
+    bool level = side % 2 == 0;
+    int at = level ? middle.x : middle.y;
+    if (at - half <= 0 || at + half >= (level ? set->east : set->north))
+        return false;
+    int inward = side == 0 || side == 3 ? deep : -deep;
+    int x = middle.x + (level ? aside : inward);
+    int y = middle.y + (level ? inward : aside);
+    if (!is_inner(set, x, y))
+        return false;
+    int along_x = level ? half : 0;
+    int along_y = level ? 0 : half;
+    const yb_step_t point[3] = {{(uint8_t)(middle.x - along_x), (uint8_t)(middle.y - along_y)},
+                                {(uint8_t)x, (uint8_t)y},
+                                {(uint8_t)(middle.x + along_x), (uint8_t)(middle.y + along_y)}};
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        sum += true_height(mover, point[i].x, point[i].y);
+    return yb_contour_set_append(set, line_height(mover, sum / 3), true, point, 3) &&
+           yb_paper_split(set);
+}
+
+static bool transfer_bay(yb_search_mover_t *mover)
+{
+    return remove_contour(mover) && add_bay(mover);
 }
 
 /* A line's point becomes a spot height of its own. */
@@ -450,17 +519,38 @@ static bool change_twice(yb_search_mover_t *mover)
     return first || second;
 }
 
-/* A spot height where the surface is wrong, or a point of a line. */
+/* A spot height where the surface is wrong, a point of a line, or a bay. */
 static bool grow(yb_search_mover_t *mover)
 {
-    return yb_random_share(&mover->random) < 0.6 ? add_spot(mover)
-                                                 : pick_point(mover) && add_point(mover);
+    double kind = yb_random_share(&mover->random);
+    if (kind < 0.6)
+        return add_spot(mover);
+    if (mover->search->many && kind > 0.8)
+        return add_bay(mover);
+    return pick_point(mover) && add_point(mover);
+}
+
+bool yb_search_move_locally(yb_search_mover_t *mover, yb_local_move_t kind)
+{
+    switch (kind) {
+    case YB_MOVE_POINT:
+        return pick_point(mover) && change_point(mover);
+    case YB_MOVE_HEIGHT:
+        return pick_point(mover) && change_height(mover);
+    case YB_MOVE_INSERT:
+        return pick_point(mover) && add_point(mover);
+    case YB_MOVE_REMOVE:
+        return pick_point(mover) && mover->set->contour[mover->contour].count > 1 &&
+               remove_point(mover);
+    default:
+        return add_spot(mover);
+    }
 }
 
 bool yb_search_move(yb_search_mover_t *mover)
 {
     static const struct {
-        int weight;   /* of 216 */
+        int weight;   /* of 224, of 216 without bays */
         pick_fn pick; /* what it is for; NULL: that is its own choice */
         change_fn change;
     } moves[] = {{70, pick_point, change_point},
@@ -484,10 +574,12 @@ bool yb_search_move(yb_search_mover_t *mover)
                  {4, pick_contour, turn_line},
                  {2, NULL, reorder},
                  {3, NULL, change_unit},
-                 {1, NULL, change_base}};
+                 {1, NULL, change_base},
+                 {4, NULL, add_bay},
+                 {4, pick_contour, transfer_bay}};
     if (mover->grows && yb_random_share(&mover->random) < 0.5)
         return grow(mover);
-    int ticket = yb_random_below(&mover->random, 216);
+    int ticket = yb_random_below(&mover->random, mover->search->many ? 224 : 216);
     int i = 0;
     while (ticket >= moves[i].weight)
         ticket -= moves[i++].weight;

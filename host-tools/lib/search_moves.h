@@ -18,4 +18,18 @@ typedef struct {
  */
 bool yb_search_move(yb_search_mover_t *mover);
 
+/* A change that is felt near one place only. */
+typedef enum {
+    YB_MOVE_POINT,
+    YB_MOVE_HEIGHT, /* of a spot height or a short line */
+    YB_MOVE_INSERT,
+    YB_MOVE_REMOVE,
+    YB_MOVE_SPOT /* a new one, the last contour */
+} yb_local_move_t;
+
+/* One of these, of mover->contour and, but for heights, mover->point; a new point comes after
+ * that. False: it was not possible.
+ */
+bool yb_search_move_locally(yb_search_mover_t *mover, yb_local_move_t kind);
+
 #endif

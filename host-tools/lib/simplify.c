@@ -264,3 +264,52 @@ bool yb_simplify_fits(const yb_contour_set_t *set, const yb_step_t *point, int c
     }
     return true;
 }
+
+/* Whether one segment of a contour meets another of the same. */
+static bool meets_own(const yb_step_t *point, int count, bool open, int one)
+{
+    yb_step_t a = point[one];
+    yb_step_t b = point[(one + 1) % count];
+    for (int k = 0; k < segment_count(count, open); k++) {
+        yb_step_t c = point[k];
+        yb_step_t d = point[(k + 1) % count];
+        if (k == one)
+            continue;
+        if (k == (one + 1) % count   ? folds(a, b, d)
+            : one == (k + 1) % count ? folds(c, a, b)
+                                     : segments_meet(a, b, c, d))
+            return true;
+    }
+    return false;
+}
+
+/* Whether the segment ab meets another contour than its own. */
+static bool meets_others(const yb_contour_set_t *set, int own, yb_step_t a, yb_step_t b)
+{
+    const yb_step_t *point = set->point;
+    for (int i = 0; i < set->contour_count; point += set->contour[i++].count) {
+        int count = set->contour[i].count;
+        for (int k = 0; k < segment_count(count, set->contour[i].open) && i != own; k++)
+            if (segments_meet(a, b, point[k], point[(k + 1) % count]))
+                return true;
+    }
+    return false;
+}
+
+bool yb_simplify_point_fits(const yb_contour_set_t *set, int contour, int at)
+{
+    int count = set->contour[contour].count;
+    bool open = set->contour[contour].open;
+    const yb_step_t *point = &set->point[yb_contour_set_first(set, contour)];
+    if (open && count == 2 && along_frame(set, point[0], point[1]))
+        return false;
+    for (int back = 0; back < (count > 1 ? 2 : 1); back++) {
+        int one = (at + count - back) % count;
+        if (one >= segment_count(count, open))
+            continue;
+        if ((count > 1 && meets_own(point, count, open, one)) ||
+            meets_others(set, contour, point[one], point[(one + 1) % count]))
+            return false;
+    }
+    return true;
+}

@@ -32,4 +32,7 @@ int yb_simplify_to_lattice(const yb_line_t *line, double tolerance_m, const yb_l
  */
 bool yb_simplify_fits(const yb_contour_set_t *set, const yb_step_t *point, int count, bool open);
 
+/* The same for a point that has been moved within the set: do its segments cross or touch any? */
+bool yb_simplify_point_fits(const yb_contour_set_t *set, int contour, int at);
+
 #endif

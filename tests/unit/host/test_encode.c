@@ -65,9 +65,11 @@ static void test_same_bytes_again(void **state)
 {
     (void)state;
     yb_grid_t *grid = scratch_grid(64, 64, relief_range);
-    const yb_profile_t profiles[] = {YB_PAPER, YB_COMPACT};
-    for (int i = 0; i < 2; i++) {
-        yb_encode_task_t task = {.profile = profiles[i], .most_bytes = 80, .seed = 3, .effort = 1};
+    const yb_profile_t profiles[] = {YB_PAPER, YB_COMPACT, YB_COMPACT};
+    const size_t budgets[] = {80, 80, 160};
+    for (int i = 0; i < 3; i++) {
+        yb_encode_task_t task = {
+            .profile = profiles[i], .most_bytes = budgets[i], .seed = 3, .effort = 1};
         yb_encode_result_t first;
         yb_encode_result_t second;
         task.threads = 1;
@@ -213,13 +215,30 @@ static void test_vertices_are_kept(void **state)
     assert_int_equal(yb_compact_vertex_class_within(65535), 15);
 }
 
+/* Bytes that are asked for are used, on a smooth slope and with little effort too: a search that
+ * does not want to grow ends with two thirds of them here.
+ */
+static void test_long_code_is_full(void **state)
+{
+    (void)state;
+    yb_grid_t *grid = scratch_grid(64, 64, relief_cone);
+    yb_encode_task_t task = {
+        .profile = YB_COMPACT, .most_bytes = 400, .seed = 1, .effort = 1, .vertices = 1000};
+    yb_encode_result_t result;
+    encode_grid(grid, &task, &result);
+    assert_true(result.code->size >= 360);
+    assert_true(result.rmse_m / result.std_m < 0.015);
+    yb_encode_result_free(&result);
+    yb_grid_free(grid);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_near_the_relief),   cmocka_unit_test(test_same_bytes_again),
         cmocka_unit_test(test_written_again),     cmocka_unit_test(test_budgets),
         cmocka_unit_test(test_levels_are_kept),   cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_vertices_are_kept),
+        cmocka_unit_test(test_vertices_are_kept), cmocka_unit_test(test_long_code_is_full),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,13 +137,41 @@ static void test_fits(void **state)
     assert_false(yb_simplify_fits(&set, along, 2, true));
 }
 
+/* Points of a set are moved: their own segments count, near and far. */
+static void test_point_fits(void **state)
+{
+    (void)state;
+    yb_contour_set_t set = {.east = 200, .north = 200};
+    yb_step_t square[] = {{50, 50}, {150, 50}, {150, 150}, {50, 150}};
+    yb_step_t across[] = {{0, 20}, {100, 30}, {200, 20}};
+    yb_step_t spot = {100, 100};
+    assert_true(yb_contour_set_append(&set, 1, false, square, 4));
+    assert_true(yb_contour_set_append(&set, 1, true, across, 3));
+    assert_true(yb_contour_set_append(&set, 2, false, &spot, 1));
+    for (int i = 0; i < 4; i++)
+        assert_true(yb_simplify_point_fits(&set, 0, i));
+    for (int i = 0; i < 3; i++)
+        assert_true(yb_simplify_point_fits(&set, 1, i));
+    assert_true(yb_simplify_point_fits(&set, 2, 0));
+    set.point[7] = (yb_step_t){100, 50};
+    assert_false(yb_simplify_point_fits(&set, 2, 0)); /* on the square */
+    set.point[7] = spot;
+    set.point[5] = (yb_step_t){100, 60};
+    assert_false(yb_simplify_point_fits(&set, 1, 1)); /* through it */
+    assert_false(yb_simplify_point_fits(&set, 1, 0));
+    set.point[5] = across[1];
+    set.point[2] = (yb_step_t){100, 20};
+    assert_false(yb_simplify_point_fits(&set, 0, 2)); /* through itself and the open line */
+    set.point[2] = (yb_step_t){150, 40};
+    assert_false(yb_simplify_point_fits(&set, 0, 2)); /* back over its own side */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error_is_bounded),
-        cmocka_unit_test(test_closed_keeps_three),
-        cmocka_unit_test(test_lattice),
-        cmocka_unit_test(test_fits),
+        cmocka_unit_test(test_error_is_bounded), cmocka_unit_test(test_closed_keeps_three),
+        cmocka_unit_test(test_lattice),          cmocka_unit_test(test_fits),
+        cmocka_unit_test(test_point_fits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
