@@ -6,9 +6,9 @@
 
 enum {
     MOST_SIDE = 256,
-    LEVELS = 12,    /* of refinement to four cells: what wants more is taken as it is */
-    LONGEST = 4,    /* cells */
-    HEIGHT_BITS = 8 /* of the highest place, above the lowest */
+    CAST_LEVELS = 12, /* of refinement to four cells: what wants more is taken as it is */
+    CAST_LONGEST = 4, /* cells */
+    HEIGHT_BITS = 8   /* of the highest place, above the lowest */
 };
 
 static int32_t lit_at(const yb_shadow_t *shadow, int32_t i, int32_t j)
@@ -43,7 +43,7 @@ typedef struct {
     int32_t low_q8, water_q8;
 } field_t;
 
-static uint8_t height_of(const field_t *field, int32_t z_q8)
+static uint8_t cell_height(const field_t *field, int32_t z_q8)
 {
     z_q8 = fix_max(z_q8, field->water_q8);
     return (uint8_t)fix_clamp((z_q8 - field->low_q8) >> field->scale_shift, 0, 255);
@@ -71,8 +71,8 @@ typedef struct {
     int32_t at[3], east[3], north[3];
 } weights_t;
 
-static void weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int cell_shift,
-                  weights_t *weights)
+static void weigh_cell(const yb_vertex_t *const p[3], int32_t x, int32_t y, int cell_shift,
+                       weights_t *weights)
 {
     for (int k = 0; k < 3; k++) {
         const yb_vertex_t *from = p[k == 2 ? 0 : k + 1];
@@ -97,8 +97,8 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
         return;
     int32_t half = (int32_t)1 << (field->shift - 1);
     weights_t row;
-    weigh(p, ((columns.first << field->shift) + half) >> 4,
-          ((rows.first << field->shift) + half) >> 4, field->shift - 4, &row);
+    weigh_cell(p, ((columns.first << field->shift) + half) >> 4,
+               ((rows.first << field->shift) + half) >> 4, field->shift - 4, &row);
     int32_t area = row.at[0] + row.at[1] + row.at[2];
     if (area <= 0)
         return;
@@ -115,7 +115,7 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
                 /* Heights differ by less than 2^20: 2^28. */
                 int32_t of_a = (to_a >> spare) * inverse >> 15;
                 int32_t of_b = (to_b >> spare) * inverse >> 15;
-                height[i] = height_of(
+                height[i] = cell_height(
                     field,
                     c->z_q8 + (((a->z_q8 - c->z_q8) * of_a + (b->z_q8 - c->z_q8) * of_b) >> 8));
             }
@@ -139,10 +139,10 @@ static void find_heights(const yb_map_t *map, const yb_view_t *view, const yb_sh
     while ((map->high_q8 - map->low_q8) >> field->scale_shift >= 1 << HEIGHT_BITS)
         field->scale_shift++;
     memset(field->height, 0, YB_SHADOW_WORK(shadow->side));
-    uint16_t longest = (uint16_t)fix_min((int32_t)LONGEST << field->shift, 65535);
-    surface_level_t levels[LEVELS];
+    uint16_t longest = (uint16_t)fix_min((int32_t)CAST_LONGEST << field->shift, 65535);
+    surface_level_t levels[CAST_LEVELS];
     for (yb_triangle_t t = 0; t < map->triangle_count; t++)
-        surface_refine(map, t, longest, levels, LEVELS, set_cells, field);
+        surface_refine(map, t, longest, levels, CAST_LEVELS, set_cells, field);
 }
 
 /* --- Shadows ---------------------------------------------------------------------------------- */
