@@ -62,41 +62,47 @@ static void cut(const corner_t *p, const corner_t *q, int64_t from, int64_t to, 
     cut_at->spot = NULL;
 }
 
-static void clip_plane(const yb_frame_t *frame, const polygon_t *in, int plane, polygon_t *out)
+/* Cuts off what is outside a plane, in place: a convex polygon leaves a plane's inner side once, so
+ * what is written is at most one corner ahead of what is read, and that one is held.
+ */
+static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
 {
-    out->count = 0;
-    for (int i = 0; i < in->count; i++) {
-        const corner_t *p = &in->corner[i];
-        const corner_t *q = &in->corner[i + 1 == in->count ? 0 : i + 1];
-        int64_t p_in = inside_of(frame, p, plane);
-        int64_t q_in = inside_of(frame, q, plane);
+    int count = polygon->count;
+    corner_t *corner = polygon->corner;
+    corner_t first = corner[0];
+    corner_t p = first;
+    int64_t p_in = inside_of(frame, &p, plane);
+    polygon->count = 0;
+    for (int i = 1; i <= count; i++) {
+        corner_t q = i < count ? corner[i] : first;
+        int64_t q_in = inside_of(frame, &q, plane);
         if (p_in >= 0)
-            out->corner[out->count++] = *p;
+            corner[polygon->count++] = p;
         if (p_in >= 0 && q_in < 0)
-            cut(p, q, p_in, q_in, &out->corner[out->count++]);
+            cut(&p, &q, p_in, q_in, &corner[polygon->count++]);
         else if (p_in < 0 && q_in >= 0)
-            cut(q, p, q_in, p_in, &out->corner[out->count++]);
+            cut(&q, &p, q_in, p_in, &corner[polygon->count++]);
+        p = q;
+        p_in = q_in;
     }
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
                uint16_t pixel)
 {
-    polygon_t polygon[2];
-    polygon[0].count = 3;
+    polygon_t polygon = {.count = 3};
     for (int i = 0; i < 3; i++) {
-        corner_t *to = &polygon[0].corner[i];
+        corner_t *to = &polygon.corner[i];
         camera_view(frame, corner[i]->place, corner[i]->top_q8, &to->at);
         to->spot = corner[i]->spot.near > 0 ? &corner[i]->spot : NULL;
     }
-    int now = 0;
-    for (int plane = 0; plane < PLANES; plane++, now ^= 1)
-        clip_plane(frame, &polygon[now], plane, &polygon[now ^ 1]);
+    for (int plane = 0; plane < PLANES && polygon.count > 0; plane++)
+        clip_plane(frame, &polygon, plane);
     yb_spot_t fan[3];
     bool drawn = false;
-    for (int i = 0; i < polygon[now].count; i++) {
+    for (int i = 0; i < polygon.count; i++) {
         yb_spot_t *to = &fan[fix_min(i, 2)];
-        const corner_t *from = &polygon[now].corner[i];
+        const corner_t *from = &polygon.corner[i];
         if (from->spot != NULL)
             *to = *from->spot;
         else

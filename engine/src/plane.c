@@ -138,9 +138,11 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-void plane_fill(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look, int32_t y,
-                int32_t end_y, uint16_t pixel)
+void raster_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look,
+                  uint16_t pixel, const raster_cut_t *cut)
 {
+    int32_t y = rows_first(raster, p);
+    int32_t end_y = rows_end(raster, p);
     int32_t width = raster->screen->width;
     int32_t line = y - raster->first_row;
     uint16_t *depth = raster->band->depth + line * width;
@@ -149,8 +151,8 @@ void plane_fill(const raster_t *raster, const yb_spot_t *const p[3], raster_look
     const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
-    cutter_t cutter = {.cut = raster->cut};
-    bool cuts = raster->cut != NULL && cutter_start(&cutter, p, y);
+    cutter_t cutter = {.cut = cut};
+    bool cuts = cut != NULL && cutter_start(&cutter, p, y);
     chunk_t chunk;
     for (int32_t i = CHUNK; y < end_y; y++, i++) {
         if (i == CHUNK) {

@@ -116,18 +116,12 @@ static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *
     }
 }
 
-void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
-                 raster_look_t look, uint16_t pixel)
+void raster_level(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                  const yb_spot_t *c, uint16_t pixel)
 {
     const yb_spot_t *const p[3] = {a, b, c};
-    int32_t top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
-    int32_t bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
-    int32_t y = fix_max(raster_pixel(top), raster->first_row);
-    int32_t end_y = fix_min(raster_pixel(bottom), raster->end_row);
-    if (look == RASTER_FRONT || raster->cut != NULL) {
-        plane_fill(raster, p, look, y, end_y, pixel);
-        return;
-    }
+    int32_t y = rows_first(raster, p);
+    int32_t end_y = rows_end(raster, p);
     chunk_t chunk;
     rows_trace(p, y, end_y, &chunk);
     uint16_t near = mean_near(p);

@@ -29,7 +29,6 @@ typedef struct {
     const yb_screen_t *screen;
     const yb_band_t *band;      /* NULL: nothing is drawn, only looked at */
     int32_t first_row, end_row; /* of the screen */
-    const raster_cut_t *cut;    /* of the triangle to come, or NULL */
     yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
     void *context;
 } raster_t;
@@ -80,13 +79,24 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
     return right - left > RASTER_LEVEL || bottom - top > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
 }
 
-/* Draws a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, or as
- * the cut says, where it is nearer than what is there. A pixel is covered if its centre is inside,
- * or on a top or left edge: pixels along the common edge of two triangles are drawn once, none is
- * left out.
+/* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
+ * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
+ * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
+ * is for small ones alone, at one depth; with a cut (or NULL) the second draws its lines.
  */
-void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
-                 raster_look_t look, uint16_t pixel);
+void raster_level(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                  const yb_spot_t *c, uint16_t pixel);
+void raster_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look,
+                  uint16_t pixel, const raster_cut_t *cut);
+
+static inline void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
+                               const yb_spot_t *c, raster_look_t look, uint16_t pixel)
+{
+    if (look == RASTER_SMALL)
+        raster_level(raster, a, b, c, pixel);
+    else
+        raster_plane(raster, (const yb_spot_t *const[3]){a, b, c}, look, pixel, NULL);
+}
 
 /* Both: looks, and draws what is in front, if there is a band. */
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,

@@ -556,9 +556,8 @@ static bool draw_lines(const yb_frame_t *frame, const raster_t *raster,
     raster_cut_t cut;
     if (!shade_cut(frame, p, pixel, &cut))
         return false;
-    raster_t cutting = *raster;
-    cutting.cut = &cut;
-    raster_fill(&cutting, &p[0]->spot, &p[1]->spot, &p[2]->spot, look, pixel);
+    raster_plane(raster, (const yb_spot_t *const[3]){&p[0]->spot, &p[1]->spot, &p[2]->spot}, look,
+                 pixel, &cut);
     return true;
 }
 

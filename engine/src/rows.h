@@ -6,6 +6,7 @@
 
 #include <yamabiko/rom.h>
 
+#include "fix.h"
 #include "raster.h"
 
 /* --- Pixels ----------------------------------------------------------------------------------- */
@@ -66,10 +67,17 @@ static inline uint16_t mean_near(const yb_spot_t *const p[3])
     return (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
 }
 
-/* Fills a triangle of any size from row y up to end_y: on its plane of 1/depth if it is
- * RASTER_FRONT, with lines if it is cut.
- */
-void plane_fill(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look, int32_t y,
-                int32_t end_y, uint16_t pixel);
+/* The rows of the band that a triangle meets: the first, and the one after the last. */
+static inline int32_t rows_first(const raster_t *raster, const yb_spot_t *const p[3])
+{
+    int32_t top = fix_min(p[0]->y_q4, fix_min(p[1]->y_q4, p[2]->y_q4));
+    return fix_max(raster_pixel(top), raster->first_row);
+}
+
+static inline int32_t rows_end(const raster_t *raster, const yb_spot_t *const p[3])
+{
+    int32_t bottom = fix_max(p[0]->y_q4, fix_max(p[1]->y_q4, p[2]->y_q4));
+    return fix_min(raster_pixel(bottom), raster->end_row);
+}
 
 #endif

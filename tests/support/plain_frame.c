@@ -89,16 +89,22 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
     else {
         raster_cut_t cut;
-        raster_t raster = drawing->raster;
+        const yb_spot_t *const spot[3] = {&p[0]->spot, &p[1]->spot, &p[2]->spot};
+        raster_t only_look = drawing->raster;
+        only_look.band = NULL;
+        raster_look_t look = raster_draw(&only_look, spot[0], spot[1], spot[2], pixel);
+        if (look == RASTER_NOTHING)
+            return;
         if (drawing->frame->lines && shade_cut(drawing->frame, p, pixel, &cut))
-            raster.cut = &cut;
-        (void)raster_draw(&raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
+            raster_plane(&drawing->raster, spot, look, pixel, &cut);
+        else
+            raster_fill(&drawing->raster, spot[0], spot[1], spot[2], look, pixel);
     }
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
-    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL, NULL}};
+    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL}};
     raster_clear(&drawing.raster);
     for (int32_t y = 0; y < frame->screen.height; y++)
         raster_row(&drawing.raster, y, colour_sky(frame, y));

@@ -28,7 +28,7 @@ static void open_page(page_t *page, yb_format_t format, int y, int rows)
 {
     page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
     page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, depth, pixels + GUARD, PITCH};
-    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL, NULL};
+    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
     memset(pixels, 0xa5, sizeof pixels);
     raster_clear(&page->raster);
     for (int i = 0; i < rows; i++)
@@ -354,7 +354,7 @@ static void huge_triangles_fit(void **state)
     for (int round = 0; round < 2000; round++) {
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
-        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL, NULL};
+        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
         raster_clear(&raster);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
@@ -413,8 +413,10 @@ static void lines_lie_where_they_should(void **state)
             cut.zero = rng_range(&rng, 20000, 45000);
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        page.raster.cut = &cut;
-        (void)draw(&page.raster, p, 5);
+        const raster_look_t look = raster_front(&p[0], &p[1], &p[2]);
+        if (look == RASTER_NOTHING)
+            continue;
+        raster_plane(&page.raster, (const yb_spot_t *const[3]){&p[0], &p[1], &p[2]}, look, 5, &cut);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             if (depth[i] == 0)
                 continue;
