@@ -256,7 +256,7 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
         camera_see(frame, &point);
         frame->seen[i].x_q4 = (yb_side_t)point.spot.x_q4;
         frame->seen[i].y_q4 = (yb_side_t)point.spot.y_q4;
-        frame->seen[i].near = (uint16_t)point.spot.near;
+        frame->seen[i].near = point.spot.near;
     }
 }
 
@@ -309,14 +309,14 @@ void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot
     int32_t y = (shifted(from->up, shift) * inverse) >> 15;
     spot->x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
     spot->y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
-    spot->near = near_ratio(frame, inverse, shift);
+    spot->near = (uint16_t)near_ratio(frame, inverse, shift);
 }
 
 void camera_see(const yb_frame_t *frame, yb_point_t *point)
 {
     camera_point_t at;
     camera_view(frame, point->place, point->top_q8, &at);
-    point->spot = (yb_spot_t){0, INT32_MIN, 0};
+    point->spot = (yb_spot_t){.y_q4 = INT32_MIN};
     if (at.depth < frame->near || fix_abs(at.right) >= 2 * at.depth ||
         fix_abs(at.up) >= 2 * at.depth)
         return;
@@ -336,7 +336,9 @@ void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
     point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
     point->z_q8 = v->z_q8;
     point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
-    point->spot = (yb_spot_t){seen->x_q4, seen->near > 0 ? seen->y_q4 : INT32_MIN, seen->near};
+    point->spot.x_q4 = seen->x_q4;
+    point->spot.y_q4 = seen->near > 0 ? seen->y_q4 : INT32_MIN;
+    point->spot.near = seen->near;
 }
 
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)

@@ -42,7 +42,7 @@ static int32_t nearest(const yb_frame_t *frame, const yb_point_t *a, const yb_po
 yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                      yb_edge_t edge)
 {
-    int32_t change = fix_abs(a->spot.near - b->spot.near);
+    int32_t change = fix_abs(fix_minus(a->spot.near, b->spot.near));
     int32_t near = fix_max(a->spot.near, b->spot.near);
     bool seen = change < near;
     if (!seen)
@@ -121,7 +121,7 @@ void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_
     /* Half way between the ends' spots, and up by the rise. What needs more than that, and what
      * comes to lie more than a screen size off, is placed exactly. */
     if (edge < REFINE_AGAIN && a->spot.near > 0 && b->spot.near > 0 && fix_abs(rise) < 1 << 14) {
-        int32_t near = (a->spot.near + b->spot.near) >> 1;
+        int32_t near = fix_middle(a->spot.near, b->spot.near);
         int32_t turn = rise * near; /* below 2^30 */
         int32_t y = ((a->spot.y_q4 + b->spot.y_q4) >> 1) -
                     ((turn >> 10) * frame->lift >> frame->lift_shift);
@@ -129,7 +129,7 @@ void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_
         if (fix_abs(turn) <= frame->most_bend && (uint32_t)y + high <= 3 * high) {
             middle->spot.x_q4 = (a->spot.x_q4 + b->spot.x_q4) >> 1;
             middle->spot.y_q4 = y;
-            middle->spot.near = near;
+            middle->spot.near = (uint16_t)near;
             return;
         }
     }
@@ -386,8 +386,8 @@ static bool farther(const refine_view_t *view, const yb_point_t *const p[3], int
 static bool part_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part)
 {
     const yb_point_t *const *p = part->point;
-    int beyond = p[0]->out & p[1]->out & p[2]->out;
-    if (((p[0]->out | p[1]->out | p[2]->out) & REFINE_NOWHERE) != 0)
+    int beyond = p[0]->spot.out & p[1]->spot.out & p[2]->spot.out;
+    if (((p[0]->spot.out | p[1]->spot.out | p[2]->spot.out) & REFINE_NOWHERE) != 0)
         return refine_misses(frame, view, p, 3, refine_stray(frame, part));
     if (beyond == 0)
         return false;
@@ -406,7 +406,7 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
 {
     for (int i = 0; i < 3; i++) {
         camera_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-        frame->root[i].out = out_of(view, &frame->root[i].spot);
+        frame->root[i].spot.out = out_of(view, &frame->root[i].spot);
         part->point[i] = &frame->root[i];
     }
     for (int i = 0; i < 3; i++)
@@ -429,7 +429,7 @@ static const yb_point_t *middle_in(const yb_frame_t *frame, const refine_view_t 
                                    yb_edge_t edge)
 {
     refine_middle(frame, a, b, edge, &level->middle);
-    level->middle.out = out_of(view, &level->middle.spot);
+    level->middle.spot.out = out_of(view, &level->middle.spot);
     return &level->middle;
 }
 
@@ -565,9 +565,9 @@ static inline void leaf(yb_frame_t *frame, const refine_view_t *view, const rast
                         const yb_point_t *const p[3])
 {
     frame->stats.refined++;
-    if (raster == NULL || (p[0]->out & p[1]->out & p[2]->out & REFINE_SIDES) != 0)
+    if (raster == NULL || (p[0]->spot.out & p[1]->spot.out & p[2]->spot.out & REFINE_SIDES) != 0)
         return;
-    if (((p[0]->out | p[1]->out | p[2]->out) & REFINE_NOWHERE) != 0) {
+    if (((p[0]->spot.out | p[1]->spot.out | p[2]->spot.out) & REFINE_NOWHERE) != 0) {
         draw_clipped(frame, view, raster, p);
         return;
     }

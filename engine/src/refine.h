@@ -32,7 +32,7 @@ static inline yb_edge_t refine_half(yb_edge_t edge)
     return edge >= REFINE_AGAIN ? half | REFINE_ASK : half;
 }
 
-/* yb_point_t.out: the sides of some rows of the screen that a point is beyond. */
+/* yb_spot_t.out: the sides of some rows of the screen that a point is beyond. */
 enum {
     REFINE_ABOVE = 1,
     REFINE_BELOW = 2,

@@ -63,7 +63,7 @@ void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t
 /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
 static inline uint16_t mean_near(const yb_spot_t *const p[3])
 {
-    uint32_t sum = (uint32_t)(p[0]->near + p[1]->near + p[2]->near) + 1;
+    uint32_t sum = (uint32_t)p[0]->near + p[1]->near + p[2]->near + 1;
     return (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
 }
 

@@ -85,17 +85,17 @@ static int64_t twice_area(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_
  */
 static void random_mesh(mesh_t *mesh, rng_t *rng, int splits)
 {
-    static const yb_spot_t frame[4] = {{-WIDTH * 16, -HEIGHT * 16, 100},
-                                       {2 * WIDTH * 16, -HEIGHT * 16, 100},
-                                       {2 * WIDTH * 16, 2 * HEIGHT * 16, 100},
-                                       {-WIDTH * 16, 2 * HEIGHT * 16, 100}};
+    static const yb_spot_t frame[4] = {{-WIDTH * 16, -HEIGHT * 16, 100, 0},
+                                       {2 * WIDTH * 16, -HEIGHT * 16, 100, 0},
+                                       {2 * WIDTH * 16, 2 * HEIGHT * 16, 100, 0},
+                                       {-WIDTH * 16, 2 * HEIGHT * 16, 100, 0}};
     memcpy(mesh->point, frame, sizeof frame);
     mesh->points = 4;
     const int start[2][3] = {{0, 2, 1}, {0, 3, 2}};
     memcpy(mesh->triangle, start, sizeof start);
     mesh->triangles = 2;
     for (int i = 0; i < splits && mesh->triangles + 2 <= MOST; i++) {
-        yb_spot_t p = {rng_range(rng, 0, WIDTH * 16), rng_range(rng, 0, HEIGHT * 16), 100};
+        yb_spot_t p = {rng_range(rng, 0, WIDTH * 16), rng_range(rng, 0, HEIGHT * 16), 100, 0};
         if (rng_one_in(rng, 2)) { /* a pixel's centre */
             p.x_q4 = p.x_q4 / 16 * 16 + 8;
             p.y_q4 = p.y_q4 / 16 * 16 + 8;
@@ -159,7 +159,7 @@ static void bands_are_parts_of_the_whole(void **state)
         for (int i = 0; i < 3; i++) {
             corner[i].x_q4 = rng_range(&rng, -WIDTH * 16, 2 * WIDTH * 16);
             corner[i].y_q4 = rng_range(&rng, -HEIGHT * 16, 2 * HEIGHT * 16);
-            corner[i].near = least + rng_range(&rng, 0, depths);
+            corner[i].near = (uint16_t)(least + rng_range(&rng, 0, depths));
         }
         yb_format_t format = round % 2 == 0 ? YB_RGB565 : YB_GREY4;
         page_t page;
@@ -185,10 +185,10 @@ static void bands_are_parts_of_the_whole(void **state)
 static void back_faces_and_flat_ones_draw_nothing(void **state)
 {
     (void)state;
-    static const yb_spot_t back[3] = {{0, 0, 9}, {500, 0, 9}, {0, 500, 9}};
-    static const yb_spot_t front[3] = {{0, 0, 9}, {0, 500, 9}, {500, 0, 9}};
-    static const yb_spot_t flat[3] = {{0, 0, 9}, {100, 100, 9}, {500, 500, 9}};
-    static const yb_spot_t away[3] = {{-500, 0, 9}, {-500, 500, 9}, {-100, 0, 9}};
+    static const yb_spot_t back[3] = {{0, 0, 9, 0}, {500, 0, 9, 0}, {0, 500, 9, 0}};
+    static const yb_spot_t front[3] = {{0, 0, 9, 0}, {0, 500, 9, 0}, {500, 0, 9, 0}};
+    static const yb_spot_t flat[3] = {{0, 0, 9, 0}, {100, 100, 9, 0}, {500, 500, 9, 0}};
+    static const yb_spot_t away[3] = {{-500, 0, 9, 0}, {-500, 500, 9, 0}, {-100, 0, 9, 0}};
     page_t page;
     open_page(&page, YB_RGB565, 0, HEIGHT);
     assert_false(draw(&page.raster, back, 7));
@@ -205,7 +205,7 @@ static void back_faces_and_flat_ones_draw_nothing(void **state)
 static void edges_through_centres(void **state)
 {
     (void)state;
-    static const yb_spot_t upper[3] = {{8, 8, 9}, {8, 72, 9}, {72, 8, 9}};
+    static const yb_spot_t upper[3] = {{8, 8, 9, 0}, {8, 72, 9, 0}, {72, 8, 9, 0}};
     page_t page;
     open_page(&page, YB_GREY4, 0, HEIGHT);
     assert_true(draw(&page.raster, upper, 7));
@@ -231,7 +231,7 @@ static void the_nearest_wins_in_any_order(void **state)
                 for (int k = 0; k < 3; k++) {
                     corner[i][k].x_q4 = rng_range(&rng, 0, WIDTH * 16);
                     corner[i][k].y_q4 = rng_range(&rng, 0, HEIGHT * 16);
-                    corner[i][k].near = 1000 + 9000 * i; /* one behind another */
+                    corner[i][k].near = (uint16_t)(1000 + 9000 * i); /* one behind another */
                 }
             } while (twice_area(&corner[i][0], &corner[i][1], &corner[i][2]) >= 0);
         }
@@ -263,7 +263,7 @@ static void random_triangle(rng_t *rng, int size, int depths, yb_spot_t p[3])
             p[k].x_q4 = fix_clamp(rng_range(rng, x - size, x + size), -WIDTH * 16, 2 * WIDTH * 16);
             p[k].y_q4 =
                 fix_clamp(rng_range(rng, y - size, y + size), -HEIGHT * 16, 2 * HEIGHT * 16);
-            p[k].near = near + rng_range(rng, 0, depths);
+            p[k].near = (uint16_t)(near + rng_range(rng, 0, depths));
         }
     } while (twice_area(&p[0], &p[1], &p[2]) >= 0);
 }
@@ -290,7 +290,7 @@ static double depth_error(const yb_spot_t p[3])
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         if (depth[i] == 0)
             continue;
-        yb_spot_t at = {i % WIDTH * 16 + 8, i / WIDTH * 16 + 8, 0};
+        yb_spot_t at = {i % WIDTH * 16 + 8, i / WIDTH * 16 + 8, 0, 0};
         double truth = ((double)twice_area(&p[1], &p[2], &at) * p[0].near +
                         (double)twice_area(&p[2], &p[0], &at) * p[1].near +
                         (double)twice_area(&p[0], &p[1], &at) * p[2].near) /
@@ -360,7 +360,7 @@ static void huge_triangles_fit(void **state)
         for (int k = 0; k < 3; k++) {
             p[k].x_q4 = rng_one_in(&rng, 2) ? -YB_MAX_SIDE * 16 : 2 * YB_MAX_SIDE * 16;
             p[k].y_q4 = rng_one_in(&rng, 2) ? -YB_MAX_SIDE * 16 : 2 * YB_MAX_SIDE * 16;
-            p[k].near = rng_one_in(&rng, 2) ? 1 : 65535;
+            p[k].near = (uint16_t)(rng_one_in(&rng, 2) ? 1 : 65535);
         }
         bool front = draw(&raster, p, 0xffff);
         assert_int_equal(front, twice_area(&p[0], &p[1], &p[2]) < 0);
@@ -402,7 +402,7 @@ static void lines_lie_where_they_should(void **state)
         for (int i = 0; i < 3; i++) {
             p[i].x_q4 = rng_range(&rng, -100, WIDTH * 16 + 100);
             p[i].y_q4 = rng_range(&rng, -100, HEIGHT * 16 + 100);
-            p[i].near = rng_range(&rng, 100, 60000);
+            p[i].near = (uint16_t)(rng_range(&rng, 100, 60000));
             cut.value[i] = rng_range(&rng, 20000, 45000);
         }
         if (-twice_area(&p[0], &p[1], &p[2]) < 20000)
@@ -449,7 +449,7 @@ static void lines_lie_where_they_should(void **state)
 static void shades_become_dots(void **state)
 {
     (void)state;
-    static const yb_spot_t all[3] = {{-900, -900, 9}, {-900, 3000, 9}, {3000, -900, 9}};
+    static const yb_spot_t all[3] = {{-900, -900, 9, 0}, {-900, 3000, 9, 0}, {3000, -900, 9, 0}};
     uint16_t before[WIDTH * HEIGHT] = {0};
     for (uint16_t shade = 0; shade < 16; shade++) {
         page_t page;

@@ -57,7 +57,7 @@ static void random_triangle(rng_t *rng, yb_point_t p[3])
             p[i].z_q8 = p[i].top_q8 = rng_range(rng, 1000, 1000 + size);
             p[i].slope = (uint32_t)(rng_range(rng, -3000, 3000) + 32768) << 16 |
                          (uint32_t)(rng_range(rng, -3000, 3000) + 32768);
-            p[i].spot = (yb_spot_t){100, 100, 5000};
+            p[i].spot = (yb_spot_t){100, 100, 5000, 0};
         }
         const int32_t area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
         if (area > size * size / 16)

@@ -16,7 +16,7 @@
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (4.9 KB with 255 vertices)
  *   yb_load_t   working memory of decoding: until YB_OK           (5.5 KB)
- *   yb_frame_t  working memory of drawing: one frame at a time    (4.1 KB)
+ *   yb_frame_t  working memory of drawing: one frame at a time    (4.0 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
  *
  * Threads. Calls on different structs are independent; a loaded map is only read by the frames.
@@ -484,7 +484,8 @@ typedef struct {
  */
 typedef struct {
     int32_t x_q4, y_q4;
-    int32_t near;
+    uint16_t near;
+    uint8_t out; /* on which sides it is out of the band: see refine.h */
 } yb_spot_t;
 
 /* A vertex on the screen, as yb_spot_t in fewer bytes. */
@@ -505,7 +506,6 @@ typedef struct {
     int32_t z_q8;   /* of the ground */
     int32_t top_q8; /* of what is drawn: the ground, or the water over it */
     yb_spot_t spot; /* of top_q8 */
-    uint8_t out;    /* on which sides it is out of the band: see refine.h */
 } yb_point_t;
 
 /* An edge of a triangle that is being refined: see refine.h. */
