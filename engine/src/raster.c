@@ -43,6 +43,7 @@ void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
 static void trace(const yb_spot_t *a, const yb_spot_t *b, int32_t first, int32_t end,
                   chunk_t *chunk)
 {
+    /* cppcheck-suppress ctuuninitvar ; it is what is filled in here */
     int16_t *to = chunk->left;
     if (a->y_q4 > b->y_q4) {
         const yb_spot_t *upper = b;
