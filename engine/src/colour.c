@@ -47,9 +47,10 @@ void colour_begin(yb_frame_t *frame)
     int32_t relief = fix_max(frame->map->high_q8 - frame->map->low_q8, 1);
     frame->tone_q16 = (int32_t)(((uint32_t)HUES << 16) / (uint32_t)relief);
     frame->haze_near = 0;
-    if (frame->view.haze_q8 > 0)
-        frame->haze_near =
-            camera_near(frame, fix_max(frame->view.haze_q8 >> frame->eye_shift, frame->near));
+    if (frame->view.haze_q8 > 0) { /* depths have 17 bits */
+        int32_t depth = fix_min(frame->view.haze_q8 >> frame->eye_shift, ((int32_t)1 << 17) - 1);
+        frame->haze_near = camera_near(frame, fix_max(depth, frame->near));
+    }
     frame->haze_q16 = frame->haze_near > 0 ? ((int32_t)256 << 16) / frame->haze_near : 0;
 }
 
