@@ -15,6 +15,7 @@ def measure_board(board):
         yield f"size of {name}", target, sizes[name], "bytes"
     load_stack = max(run.stack["load"] for run in runs)
     yield "stack of loading", target, load_stack, "bytes"
+    yield "stack of casting shadows", target, max(run.stack["shadows"] for run in runs), "bytes"
     load = sizes["yb_load_t"] + load_stack
     for setting in STANDARD:
         if f"band-{setting}" not in sizes:
