@@ -195,6 +195,9 @@ static int check(request_t *request)
     request->draws = request->svg || yb_mesh_drawing_named(request->output);
     if (request->svg && dot != NULL && strcasecmp(dot, ".png") == 0)
         return cli_usage("--svg: '%s' ends as a PNG file does", request->output);
+    const int status = check_view(request);
+    if (status != CLI_OK)
+        return status;
     if (request->draws)
         return check_drawing(request);
     if (request->drawing_options)
@@ -205,7 +208,7 @@ static int check(request_t *request)
                          request->output);
     if (request->reference + request->refined + (request->depth != BASE_TRIANGLES) > 1)
         return cli_usage("give one of --depth, --reference and --refined");
-    return check_view(request);
+    return CLI_OK;
 }
 
 /* An option of the drawing. */

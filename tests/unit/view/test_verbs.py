@@ -136,6 +136,14 @@ class Verbs(unittest.TestCase):
         self.good("mesh", self.map, "-o", self.room / "fine.obj", "--depth", 4)
         self.assertGreater((self.room / "fine.obj").read_text().count("\nf "), 4 * faces)
 
+    def test_mesh_of_a_frame(self):
+        view = ("--view", "orbit-135", "--size", "128x64", "--edge", 8, "--walls", "off")
+        self.good("mesh", self.map, "-o", self.room / "frame.obj", "--refined", *view)
+        told = self.good("render", self.map, "-o", self.room / "frame.png", "--json", *view)
+        drawn = json.loads(told)["stats"]["drawn"]
+        self.assertGreater(drawn, 100)
+        self.assertEqual((self.room / "frame.obj").read_text().count("\nf "), drawn)
+
     def test_drawing(self):
         out = self.room / "hill.svg"
         self.good("mesh", self.map, "-o", out)
@@ -242,6 +250,11 @@ class Verbs(unittest.TestCase):
                       ("mesh", self.map, "-o", "x.svg", "--stage", "hills"),
                       ("mesh", self.map, "-o", "x.svg", "--depth", 2),
                       ("mesh", self.map, "-o", "x.svg", "--no-detail"),
+                      ("mesh", self.map, "-o", "x.svg", "--view", "walk-1"),
+                      ("mesh", self.map, "-o", "x.svg", "--refined"),
+                      ("mesh", self.map, "-o", "x.obj", "--view", "walk-1"),
+                      ("mesh", self.map, "-o", "x.obj", "--refined", "--haze", 1),
+                      ("mesh", self.map, "-o", "x.obj", "--refined", "--depth", 2),
                       ("mesh", self.map, "-o", "x.png", "--svg"),
                       ("mesh", self.map, "-o", "x.svg", "--width", 0),
                       ("mesh", self.map, "-o", "x.svg", "--width", 300),
