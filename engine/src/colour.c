@@ -69,6 +69,12 @@ static uint16_t rgb565(uint32_t red, uint32_t green, uint32_t blue)
     return (uint16_t)((red >> 3) << 11 | (green >> 2) << 5 | blue >> 3);
 }
 
+/* From one part of a colour towards another, by a share of 256. */
+static inline uint32_t blend(int32_t from, int32_t to, int32_t share)
+{
+    return (uint32_t)(from + ((to - from) * share >> 8));
+}
+
 uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
     int32_t haze = haze_of(frame, near);
@@ -78,8 +84,7 @@ uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t n
     uint32_t mixed[3];
     for (int i = 0; i < 3; i++) {
         int32_t light = yb_rom_u8(&palette[hue][i]) * (shade + 1) >> 4;
-        int32_t air = yb_rom_u8(&palette[HUE_HAZE][i]);
-        mixed[i] = (uint32_t)(light + ((air - light) * haze >> 8));
+        mixed[i] = blend(light, yb_rom_u8(&palette[HUE_HAZE][i]), haze);
     }
     return rgb565(mixed[0], mixed[1], mixed[2]);
 }
@@ -95,13 +100,10 @@ uint16_t colour_sky(const yb_frame_t *frame, int32_t row)
     int32_t high = fix_clamp((rise_q14 >> 6) + 128, 0, 256);
     const uint8_t(*palette)[3] = hues[frame->view.palette];
     uint32_t mixed[3];
-    for (int i = 0; i < 3; i++) {
-        int32_t air = yb_rom_u8(&palette[HUE_HAZE][i]);
-        mixed[i] = (uint32_t)(air + ((yb_rom_u8(&palette[HUE_SKY][i]) - air) * high >> 8));
-    }
     /* Rows are rounded up by turns, so that the few bits of a colour make no bands. */
     uint32_t spare = (uint32_t)((row & 1) * 2 + (row >> 1 & 1)) * 2;
     for (int i = 0; i < 3; i++) {
+        mixed[i] = blend(yb_rom_u8(&palette[HUE_HAZE][i]), yb_rom_u8(&palette[HUE_SKY][i]), high);
         mixed[i] += i == 1 ? spare >> 1 : spare;
         mixed[i] = mixed[i] < 255 ? mixed[i] : 255;
     }
