@@ -28,6 +28,9 @@ and two on foot. Fidelity is of codes made from the development windows, beside 
 that have no header (`tests/budget/group_fidelity.py` says more). Codes of 60 and 100 bytes are made at the
 usual effort 5, those of 200 and 400 bytes at effort 3, with a ninth of its trials: more effort is worth more.
 
+Pc: frames a second by the CPU's time of one core of the machine that measured; unlike all other figures
+they depend on it.
+
 Relief: no code, but the contour lines of every development window at nine heights, a tenth of its relief
 apart, in full detail. "yamabiko" is the smooth surface of the map of these lines, "tin" the plain
 constrained Delaunay triangulation of the same points and the frame's corners, linear in each triangle,
