@@ -145,10 +145,9 @@ static int show(const request_t *request, const yb_still_t *still)
     yb_gpiod_bus_t *bus = yb_gpiod_bus_open(&request->pins, why, sizeof why);
     if (bus == NULL)
         return cli_fail("%s", why);
-    const yb_panel_bus_t *wires = yb_gpiod_bus_panel(bus);
-    const bool good =
-        request->panel->init(wires) &&
-        yb_panel_write_rows(request->panel, wires, 0, still->screen.height, still->pixels);
+    yb_display_t display = {.panel = request->panel, .bus = yb_gpiod_bus_panel(bus)};
+    const bool good = yb_display_start(&display) &&
+                      yb_display_write_rows(&display, 0, still->screen.height, still->pixels);
     const int status = good ? CLI_OK : cli_fail("%s", yb_gpiod_bus_error(bus));
     yb_gpiod_bus_close(bus);
     return status;

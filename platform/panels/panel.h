@@ -1,26 +1,32 @@
-/* Panels: the displays that Yamabiko draws on.
+/* Panels: the SPI displays that Yamabiko draws on.
  *
  * Four thin layers lie between a picture and the wires, and each knows only the next one:
  *
- *     display        yb_panel_t           init, windows of pixels, sleep        (this folder)
- *     command/data   yb_panel_bus_t       bytes marked as command or as data    (the port's)
- *     byte           the port's           SPI hardware, a kernel driver, or bits one by one
- *     pins           the port's           registers, libgpiod, a simulated panel
+ *     display        yb_display_t         a panel on a bus, turned as it was mounted  (the
+ * caller's) panel          yb_panel_t           set-up, windows of pixels, sleep            (this
+ * folder) command/data   yb_panel_bus_t       bytes marked as command or as data          (the
+ * port's) pins           the port's           SPI hardware, a kernel driver, bits one by one, a
+ * model
  *
- * A panel is a const description; all that is known of a display at run time lies in the display.
- * Nothing here allocates, keeps state, or needs an operating system, so the same files are compiled
- * into firmware, into the PC's tools and into the tests. Calls on one bus must not overlap.
+ * A panel is a const description; all that changes at run time lies in the caller's yb_display_t.
+ * Nothing here allocates, keeps state of its own, or needs an operating system, so the same files
+ * are compiled into firmware, into the PC's tools and into the tests. A firmware of somebody else
+ * takes panel.h, panel.c, the file of its panel (and mipi.c, if that file says so), and writes the
+ * four functions command, data, reset and wait_ms. Calls on one bus must not overlap.
  *
  * Drawing a frame, band by band:
  *
- *     const yb_panel_t *panel = &yb_panel_ssd0323;
- *     if (!panel->init(&bus))
+ *     yb_display_t display = {.panel = &yb_panel_st7789, .bus = &bus, .turn = YB_TURN_90};
+ *     if (!yb_display_start(&display))
  *         return false;
- *     for (uint16_t y = 0; y < panel->screen.height; y += BAND_ROWS) {
- *         draw(band, y);
- *         if (!yb_panel_write_rows(panel, &bus, y, BAND_ROWS, band))
+ *     const yb_screen_t screen = yb_display_screen(&display);
+ *     for (uint16_t y = 0; y < screen.height; y += BAND_ROWS) {
+ *         draw(&screen, band, y);
+ *         if (!yb_display_write_rows(&display, y, BAND_ROWS, band))
  *             return false;
  *     }
+ *
+ * update.h sends only what differs from the frame before.
  */
 #ifndef YB_PANEL_H
 #define YB_PANEL_H
@@ -30,20 +36,42 @@
 #include <stdint.h>
 #include <yamabiko/yamabiko.h>
 
-/* How a panel's driver reaches the display; filled in by the port, which owns the context. Every
- * function but `wait_ms` and `reset` must be there, and answers false when the bus failed (why is
- * the port's to say). The bytes are borrowed for the call. */
+/* ---- What the port gives ----------------------------------------------------------------------
+ */
+
+/* How a panel's driver reaches the display; filled in by the port, which owns the context. Each
+ * function answers false when the bus failed (why is the port's to say). The bytes are borrowed for
+ * the call. While a call lasts the display is selected; between calls it is not. */
 typedef struct {
     void *context;
     bool (*command)(void *context, const uint8_t *bytes, size_t count);
     bool (*data)(void *context, const uint8_t *bytes, size_t count);
-    /* Pulls the display's reset line; NULL where the board does that by itself. */
+    /* As `data`, for pixels, but it may return while the bytes still go out, by DMA or in a thread:
+     * they must stay as they are until `finish`, or any other function of the bus, has returned.
+     * NULL where `data` will do. */
+    bool (*pixels)(void *context, const uint8_t *bytes, size_t count);
+    /* Waits until nothing is under way; NULL where nothing ever is. */
+    bool (*finish)(void *context);
+    /* Pulls the display's reset line for at least 10 microseconds and lets it go; NULL where the
+     * board does that by itself. */
     bool (*reset)(void *context);
-    /* Waits at least so long; NULL where the supplies are known to stand already. */
+    /* Waits at least so long; NULL where the supplies are known to stand already and the panel asks
+     * for no pause (panels of the MIPI kind do). */
     void (*wait_ms)(void *context, uint32_t ms);
 } yb_panel_bus_t;
 
-/* A rectangle of pixels and where it goes. */
+/* ---- Panels -----------------------------------------------------------------------------------
+ */
+
+/* How far the picture is turned clockwise on the glass. */
+typedef enum {
+    YB_TURN_0,
+    YB_TURN_90,
+    YB_TURN_180,
+    YB_TURN_270
+} yb_turn_t;
+
+/* A rectangle of pixels and where it goes, as the turned picture counts. */
 typedef struct {
     uint16_t x;
     uint16_t y;
@@ -53,42 +81,108 @@ typedef struct {
     size_t pitch_bytes;    /* from one row to the next */
 } yb_panel_window_t;
 
-typedef struct {
-    const char *name;
-    yb_screen_t screen; /* size and pixels, as the engine draws for it */
-    uint32_t spi_hz;    /* the fastest serial clock that the datasheet allows */
+typedef struct yb_display yb_display_t;
 
-    /* Resets the display, sets it up, blackens it and switches it on. */
-    bool (*init)(const yb_panel_bus_t *bus);
-    /* Writes one window; false also when it does not lie on the display, and then nothing is
-     * sent. With four bits a pixel, x and width must be even. */
-    bool (*write)(const yb_panel_bus_t *bus, const yb_panel_window_t *window);
-    /* Switches the display off or on again; the picture is kept. */
-    bool (*sleep)(const yb_panel_bus_t *bus, bool asleep);
+/* What a family of controllers does. Windows have been checked before they come here. */
+typedef struct {
+    /* Sets the display up after its reset, blackens it and switches it on. */
+    bool (*start)(yb_display_t *display);
+    bool (*write)(yb_display_t *display, const yb_panel_window_t *window);
+    bool (*sleep)(yb_display_t *display, bool asleep);
+    /* Light for dark, in hardware. */
+    bool (*invert)(yb_display_t *display, bool inverted);
+    /* 0 dark to 255 the most that the glass is rated for; NULL: the backlight does that. */
+    bool (*brightness)(yb_display_t *display, uint8_t level);
+    /* What the display must hear every `tick_ms`; NULL: nothing. */
+    bool (*tick)(yb_display_t *display);
+} yb_panel_driver_t;
+
+enum {
+    YB_PANEL_SELECT_HIGH = 1, /* chip select is high while bytes go out; else low */
+    YB_PANEL_NO_DC = 2,       /* no D/C line: everything is sent as data */
+    YB_PANEL_INVERTED = 4,    /* the glass shows colours right when the chip inverts them */
+    YB_PANEL_BGR = 8,         /* the glass has blue where the chip has red */
+    YB_PANEL_MIRROR_X = 0x10, /* unturned, the chip's columns run from right to left */
+    YB_PANEL_MIRROR_Y = 0x20, /* unturned, its rows run upwards */
+};
+
+typedef struct {
+    const char *name;  /* as users write it */
+    const char *title; /* chip and glass */
+    const yb_panel_driver_t *driver;
+    yb_screen_t screen; /* unturned size, and pixels, as the engine draws them */
+    uint32_t spi_hz;    /* the fastest serial clock that the datasheet allows */
+    uint16_t ram_width; /* the chip's picture memory, pixels */
+    uint16_t ram_height;
+    uint16_t
+        ram_x; /* its pixel that the glass shows top left, counted as the unturned picture is */
+    uint16_t ram_y;
+    uint8_t flags;
+    uint8_t turns;  /* those that the chip does: bit 1 << yb_turn_t */
+    uint8_t x_step; /* windows begin and end on multiples of these, unturned */
+    uint8_t y_step;
+    uint8_t window_bytes; /* what one window costs on the wire beside its pixels */
+    uint8_t row_bytes;    /* what each of its rows costs beside its pixels */
+    uint16_t tick_ms;     /* driver->tick is due so often; 0: never */
+    const uint8_t *setup; /* the glass's own commands: yb_panel_run */
+    uint16_t setup_bytes;
 } yb_panel_t;
 
 /* Solomon SSD0323 on an OSRAM Pictiva 128 x 64 glass: 16 greys. */
 extern const yb_panel_t yb_panel_ssd0323;
 
-/* Writes a band: `rows` full rows from row `y` down, one after the other in `pixels`. */
-static inline bool yb_panel_write_rows(const yb_panel_t *panel, const yb_panel_bus_t *bus,
-                                       uint16_t y, uint16_t rows, const uint8_t *pixels)
-{
-    const yb_panel_window_t band = {
-        .x = 0,
-        .y = y,
-        .width = panel->screen.width,
-        .rows = rows,
-        .pixels = pixels,
-        .pitch_bytes = yb_screen_pitch(&panel->screen),
-    };
-    return panel->write(bus, &band);
-}
+/* ---- Displays: a panel on a bus ---------------------------------------------------------------
+ */
 
-/* The panel of that name, or NULL. Links every panel there is: for programs on a PC. */
+/* The caller's; to be zeroed but for the first three fields, which stay as they are. */
+struct yb_display {
+    const yb_panel_t *panel;
+    const yb_panel_bus_t *bus;
+    yb_turn_t turn; /* one of panel->turns */
+    uint8_t state;  /* the driver's */
+};
+
+/* Resets the display, sets it up, blackens it and switches it on; also after a failure of the bus.
+ * False also when the panel cannot be turned so, and then nothing is sent. */
+bool yb_display_start(yb_display_t *display);
+
+/* Size and pixels of the turned picture. */
+yb_screen_t yb_display_screen(const yb_display_t *display);
+
+/* The steps of windows in the turned picture. */
+uint8_t yb_display_x_step(const yb_display_t *display);
+uint8_t yb_display_y_step(const yb_display_t *display);
+
+/* Writes one window; false also when it does not lie on the display or not on its steps, and then
+ * nothing is sent. Pixels are borrowed until yb_display_finish or the next call. */
+bool yb_display_write(yb_display_t *display, const yb_panel_window_t *window);
+
+/* Writes a band: `rows` full rows from row `y` down, one after the other in `pixels`. */
+bool yb_display_write_rows(yb_display_t *display, uint16_t y, uint16_t rows, const uint8_t *pixels);
+
+/* Waits until the pixels are on the display. */
+bool yb_display_finish(yb_display_t *display);
+
+/* Switches the display off or on again; the picture is kept. */
+bool yb_display_sleep(yb_display_t *display, bool asleep);
+
+/* Shows light for dark and dark for light, or as it should be. */
+bool yb_display_invert(yb_display_t *display, bool inverted);
+
+/* 0 dark to 255 the most that the glass is rated for. True, and nothing is sent, where the panel's
+ * backlight must do it. */
+bool yb_display_brightness(yb_display_t *display, uint8_t level);
+
+/* To be called every panel->tick_ms where that is not 0. */
+bool yb_display_tick(yb_display_t *display);
+
+/* ---- Lists, for programs on a PC: they link every panel there is ------------------------------
+ */
+
+/* The panel of that name, or NULL. */
 const yb_panel_t *yb_panel_find(const char *name);
 
-/* The panels one by one, for lists: index from 0, NULL after the last. */
+/* The panels one by one: index from 0, NULL after the last. */
 const yb_panel_t *yb_panel_at(size_t index);
 
 #endif

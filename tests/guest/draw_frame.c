@@ -25,7 +25,7 @@ static int write_frame(const char *path, const uint8_t *frame, size_t bytes)
     return 0;
 }
 
-static bool draw(const yb_panel_t *panel, const yb_panel_bus_t *bus, uint8_t *frame)
+static bool draw(yb_display_t *display, uint8_t *frame)
 {
     const yb_panel_window_t window = {.x = 30,
                                       .y = 11,
@@ -34,18 +34,18 @@ static bool draw(const yb_panel_t *panel, const yb_panel_bus_t *bus, uint8_t *fr
                                       .pixels = frame + 11 * ROW_BYTES + 15,
                                       .pitch_bytes = ROW_BYTES};
 
-    if (!panel->init(bus))
+    if (!yb_display_start(display))
         return false;
     for (unsigned y = 0; y < HEIGHT; y += BAND_ROWS) {
         const unsigned rows = HEIGHT - y < BAND_ROWS ? HEIGHT - y : BAND_ROWS;
-        if (!yb_panel_write_rows(panel, bus, (uint16_t)y, (uint16_t)rows, frame + y * ROW_BYTES))
+        if (!yb_display_write_rows(display, (uint16_t)y, (uint16_t)rows, frame + y * ROW_BYTES))
             return false;
     }
     for (int row = 11; row < 28; row++) {
         for (int i = 15; i < 32; i++)
             frame[row * ROW_BYTES + i] ^= 0xFF;
     }
-    return panel->write(bus, &window);
+    return yb_display_write(display, &window);
 }
 
 static int line_number(const char *text)
@@ -78,7 +78,8 @@ int main(int argc, char **argv)
         fprintf(stderr, "draw_frame: %s\n", error);
         return 1;
     }
-    const bool drawn = draw(&yb_panel_ssd0323, yb_gpiod_bus_panel(bus), frame);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = yb_gpiod_bus_panel(bus)};
+    const bool drawn = draw(&display, frame);
     if (!drawn)
         fprintf(stderr, "draw_frame: %s\n", yb_gpiod_bus_error(bus));
     yb_gpiod_bus_close(bus);

@@ -4,19 +4,20 @@
 #include "turntable.h"
 
 static yb_turntable_t table;
+static yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &yb_oled_bus};
 
 static void show_band(void *context, uint16_t y, const uint8_t *pixels)
 {
     (void)context;
     /* The bus never fails, and the band lies on the panel. */
-    (void)yb_panel_write_rows(&yb_panel_ssd0323, &yb_oled_bus, y, YB_VIEWER_BAND_ROWS, pixels);
+    (void)yb_display_write_rows(&display, y, YB_VIEWER_BAND_ROWS, pixels);
 }
 
 int main(void)
 {
     yb_board_init();
     yb_oled_start();
-    (void)yb_panel_ssd0323.init(&yb_oled_bus);
+    (void)yb_display_start(&display);
 
     const yb_turntable_port_t port = {.board = yb_board_name,
                                       .read = yb_board_read,

@@ -89,9 +89,10 @@ static void init_shows_black(void **state)
     static const uint8_t black[YB_SSD0323_PICTURE_BYTES];
     wire_t wire;
     const yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
-    assert_true(yb_panel_ssd0323.init(&bus));
+    assert_true(yb_display_start(&display));
     assert_true(wire.model.on);
     assert_int_equal(wire.resets, 1);
     assert_true(wire.waited_ms >= 100);
@@ -103,11 +104,12 @@ static void init_works_without_reset_and_wait(void **state)
 {
     wire_t wire;
     yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
     bus.reset = NULL;
     bus.wait_ms = NULL;
-    assert_true(yb_panel_ssd0323.init(&bus));
+    assert_true(yb_display_start(&display));
     assert_true(wire.model.on);
 }
 
@@ -119,13 +121,14 @@ static void every_band_height_gives_the_frame(void **state)
     for (unsigned rows = 1; rows <= YB_SSD0323_HEIGHT; rows++) {
         wire_t wire;
         const yb_panel_bus_t bus = connect(&wire);
+        yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
         draw_noise(frame, sizeof frame, rows);
-        assert_true(yb_panel_ssd0323.init(&bus));
+        assert_true(yb_display_start(&display));
         for (unsigned y = 0; y < YB_SSD0323_HEIGHT; y += rows) {
             const unsigned left = YB_SSD0323_HEIGHT - y;
-            assert_true(yb_panel_write_rows(&yb_panel_ssd0323, &bus, (uint16_t)y,
-                                            (uint16_t)(rows < left ? rows : left),
-                                            frame + (size_t)y * YB_SSD0323_COLUMNS));
+            assert_true(yb_display_write_rows(&display, (uint16_t)y,
+                                              (uint16_t)(rows < left ? rows : left),
+                                              frame + (size_t)y * YB_SSD0323_COLUMNS));
         }
         assert_shown(&wire, frame);
     }
@@ -137,6 +140,7 @@ static void window_changes_its_pixels_alone(void **state)
     uint8_t other[YB_SSD0323_PICTURE_BYTES];
     wire_t wire;
     const yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
     const yb_panel_window_t window = {
         .x = 6,
         .y = 9,
@@ -148,8 +152,8 @@ static void window_changes_its_pixels_alone(void **state)
 
     (void)state;
     draw_noise(other, sizeof other, 7);
-    assert_true(yb_panel_ssd0323.init(&bus));
-    assert_true(yb_panel_ssd0323.write(&bus, &window));
+    assert_true(yb_display_start(&display));
+    assert_true(yb_display_write(&display, &window));
     for (size_t y = 9; y < 14; y++)
         memcpy(frame + y * YB_SSD0323_COLUMNS + 3, other + y * YB_SSD0323_COLUMNS + 3, 10);
     assert_shown(&wire, frame);
@@ -163,10 +167,11 @@ static void high_nibble_is_the_left_pixel(void **state)
     uint8_t shown[YB_SSD0323_PICTURE_BYTES];
     wire_t wire;
     const yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
-    assert_true(yb_panel_ssd0323.init(&bus));
-    assert_true(yb_panel_ssd0323.write(&bus, &window));
+    assert_true(yb_display_start(&display));
+    assert_true(yb_display_write(&display, &window));
     assert_true(yb_ssd0323_model_picture(&wire.model, shown));
     assert_int_equal(shown[0], 0xF0);
     assert_int_equal(shown[1], 0x00);
@@ -183,10 +188,11 @@ static void windows_off_the_display_send_nothing(void **state)
         {.x = 0, .y = 65535, .width = 2, .rows = 2}};
     wire_t wire;
     const yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
     for (size_t i = 0; i < sizeof off / sizeof off[0]; i++)
-        assert_false(yb_panel_ssd0323.write(&bus, &off[i]));
+        assert_false(yb_display_write(&display, &off[i]));
     assert_int_equal(wire.model.bytes, 0);
 }
 
@@ -196,14 +202,15 @@ static void sleep_keeps_the_picture(void **state)
     uint8_t frame[YB_SSD0323_PICTURE_BYTES];
     wire_t wire;
     const yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
     draw_noise(frame, sizeof frame, 3);
-    assert_true(yb_panel_ssd0323.init(&bus));
-    assert_true(yb_panel_write_rows(&yb_panel_ssd0323, &bus, 0, YB_SSD0323_HEIGHT, frame));
-    assert_true(yb_panel_ssd0323.sleep(&bus, true));
+    assert_true(yb_display_start(&display));
+    assert_true(yb_display_write_rows(&display, 0, YB_SSD0323_HEIGHT, frame));
+    assert_true(yb_display_sleep(&display, true));
     assert_shown(&wire, black);
-    assert_true(yb_panel_ssd0323.sleep(&bus, false));
+    assert_true(yb_display_sleep(&display, false));
     assert_shown(&wire, frame);
 }
 
@@ -213,16 +220,16 @@ static void bus_failures_are_passed_on(void **state)
     size_t transfers;
     wire_t wire;
     yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
-    assert_true(yb_panel_ssd0323.init(&bus));
-    assert_true(yb_panel_write_rows(&yb_panel_ssd0323, &bus, 0, 8, frame));
+    assert_true(yb_display_start(&display));
+    assert_true(yb_display_write_rows(&display, 0, 8, frame));
     transfers = SIZE_MAX - wire.transfers_left;
     for (size_t n = 0; n < transfers; n++) {
         bus = connect(&wire);
         wire.transfers_left = n;
-        assert_false(yb_panel_ssd0323.init(&bus) &&
-                     yb_panel_write_rows(&yb_panel_ssd0323, &bus, 0, 8, frame));
+        assert_false(yb_display_start(&display) && yb_display_write_rows(&display, 0, 8, frame));
     }
 }
 
@@ -299,8 +306,9 @@ static void model_refuses_a_wrong_set_up(void **state)
         uint8_t shown[YB_SSD0323_PICTURE_BYTES];
         wire_t wire;
         const yb_panel_bus_t bus = connect(&wire);
+        yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
         const size_t count = wrong[i].bytes[0] == 0x75 ? 2 : 3;
-        assert_true(yb_panel_ssd0323.init(&bus));
+        assert_true(yb_display_start(&display));
         assert_true(wire_command(&wire, wrong[i].bytes, count));
         assert_false(yb_ssd0323_model_picture(&wire.model, shown));
         if (strstr(wire.model.error, wrong[i].expected) == NULL)
@@ -316,11 +324,12 @@ static void model_follows_modes_and_start_line(void **state)
     uint8_t shown[YB_SSD0323_PICTURE_BYTES];
     wire_t wire;
     const yb_panel_bus_t bus = connect(&wire);
+    yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &bus};
 
     (void)state;
     draw_noise(frame, sizeof frame, 11);
-    assert_true(yb_panel_ssd0323.init(&bus));
-    assert_true(yb_panel_write_rows(&yb_panel_ssd0323, &bus, 0, YB_SSD0323_HEIGHT, frame));
+    assert_true(yb_display_start(&display));
+    assert_true(yb_display_write_rows(&display, 0, YB_SSD0323_HEIGHT, frame));
 
     assert_true(wire_command(&wire, (const uint8_t[]){0xA7}, 1));
     assert_true(yb_ssd0323_model_picture(&wire.model, shown));
