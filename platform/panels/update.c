@@ -98,15 +98,20 @@ static void add_run(search_t *search, const rect_t *run)
     search->open[search->opened++] = *run;
 }
 
+/* Not memcmp: cells are short, and our freestanding targets have none. */
 static bool cell_differs(const search_t *search, const uint8_t *pixels, uint16_t y, uint16_t cell)
 {
     const size_t at = cell * search->cell_bytes;
     const uint8_t *shown = search->update->shown + y * search->pitch + at;
+    pixels += at;
 
     for (uint8_t row = 0; row < search->y_step; row++) {
-        if (memcmp(shown + row * search->pitch, pixels + row * search->pitch + at,
-                   search->cell_bytes) != 0)
-            return true;
+        for (size_t i = 0; i < search->cell_bytes; i++) {
+            if (shown[i] != pixels[i])
+                return true;
+        }
+        shown += search->pitch;
+        pixels += search->pitch;
     }
     return false;
 }
