@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <gpiod_bus.h>
+#include <linux_bus.h>
 #include <panel.h>
 
 #include "code_file.h"
@@ -39,7 +39,7 @@ static const struct option options[] = {{"panel", required_argument, NULL, OPTIO
 typedef struct {
     const char *input, *bus;
     const yb_panel_t *panel;
-    yb_gpiod_pins_t pins;
+    yb_linux_wiring_t pins;
     bool help;
     yb_view_options_t view;
 } request_t;
@@ -72,15 +72,6 @@ static void help(void)
           stdout);
 }
 
-static int take_line(const char *name, int *line)
-{
-    long value = 0;
-    if (!cli_integer(optarg, 0, 4095, &value))
-        return cli_usage("--%s: '%s' is not the number of a GPIO line", name, optarg);
-    *line = (int)value;
-    return CLI_OK;
-}
-
 static int take(request_t *request, int answer, int argc, char **argv)
 {
     yb_error_t error;
@@ -102,15 +93,20 @@ static int take(request_t *request, int answer, int argc, char **argv)
         request->pins.chip = optarg;
         return CLI_OK;
     case OPTION_SCK:
-        return take_line("sck", &request->pins.sck);
+        request->pins.sck = optarg;
+        return CLI_OK;
     case OPTION_MOSI:
-        return take_line("mosi", &request->pins.mosi);
+        request->pins.mosi = optarg;
+        return CLI_OK;
     case OPTION_CS:
-        return take_line("cs", &request->pins.cs);
+        request->pins.cs = optarg;
+        return CLI_OK;
     case OPTION_DC:
-        return take_line("dc", &request->pins.dc);
+        request->pins.dc = optarg;
+        return CLI_OK;
     case OPTION_RESET:
-        return take_line("reset", &request->pins.reset);
+        request->pins.reset = optarg;
+        return CLI_OK;
     case OPTION_HELP:
         request->help = true;
         return CLI_OK;
@@ -122,14 +118,14 @@ static int take(request_t *request, int answer, int argc, char **argv)
 static int check(request_t *request)
 {
     yb_error_t error;
-    const yb_gpiod_pins_t *pins = &request->pins;
+    const yb_linux_wiring_t *pins = &request->pins;
     if (request->input == NULL)
         return cli_usage("name one code, MAP.yb");
     if (request->panel == NULL)
         return cli_usage("name the panel: --panel ssd0323");
     if (request->bus == NULL)
         return cli_usage("say how the panel is wired: --bus gpiod and its lines");
-    if (pins->sck < 0 || pins->mosi < 0 || pins->cs < 0 || pins->dc < 0)
+    if (pins->sck == NULL || pins->mosi == NULL || pins->cs == NULL || pins->dc == NULL)
         return cli_usage("--bus gpiod needs the lines --sck, --mosi, --cs and --dc");
     if (yb_view_options_given(&request->view, YB_OPTION_SIZE) ||
         yb_view_options_given(&request->view, YB_OPTION_FORMAT))
@@ -141,15 +137,15 @@ static int check(request_t *request)
 static int show(const request_t *request, const yb_still_t *still)
 {
     assert(request->panel != NULL); /* check() has seen to it */
-    char why[YB_GPIOD_ERROR_BYTES];
-    yb_gpiod_bus_t *bus = yb_gpiod_bus_open(&request->pins, why, sizeof why);
+    char why[YB_LINUX_ERROR_BYTES];
+    yb_linux_bus_t *bus = yb_linux_bus_open(&request->pins, request->panel, why);
     if (bus == NULL)
         return cli_fail("%s", why);
-    yb_display_t display = {.panel = request->panel, .bus = yb_gpiod_bus_panel(bus)};
+    yb_display_t display = {.panel = request->panel, .bus = yb_linux_bus_panel(bus)};
     const bool good = yb_display_start(&display) &&
                       yb_display_write_rows(&display, 0, still->screen.height, still->pixels);
-    const int status = good ? CLI_OK : cli_fail("%s", yb_gpiod_bus_error(bus));
-    yb_gpiod_bus_close(bus);
+    const int status = good ? CLI_OK : cli_fail("%s", yb_linux_bus_error(bus));
+    yb_linux_bus_close(bus);
     return status;
 }
 
@@ -178,12 +174,6 @@ int cli_show(int argc, char **argv)
 {
     request_t request = {
         .view = yb_view_options_default(),
-        .pins = {.chip = "gpiochip0",
-                 .sck = -1,
-                 .mosi = -1,
-                 .cs = -1,
-                 .dc = -1,
-                 .reset = YB_GPIOD_NOT_WIRED},
     };
     int answer = 0;
     while ((answer = getopt_long(argc, argv, ":", options, NULL)) != -1) {
