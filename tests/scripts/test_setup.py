@@ -147,7 +147,8 @@ class Setup(unittest.TestCase):
         for name in ("gcc make cmake ninja pkg-config arm-none-eabi-gcc qemu-system-arm "
                      "riscv64-unknown-elf-gcc avr-gcc qemu-system-avr powerpc-linux-gnu-gcc qemu-ppc "
                      "python3 clang llvm-symbolizer g++ clang-format clang-tidy cppcheck "
-                     "shellcheck man groff flex bison bc perl xz").split():
+                     "shellcheck man groff flex bison bc perl xz dtc "
+                     "qemu-system-x86_64").split():
             self.command(name, "")
         result = self.run_setup()
         self.assertEqual((result.returncode, self.calls), (0, []))
