@@ -8,7 +8,6 @@
 enum {
     SET_GAMMA_CURVE = 0x26,
     SET_FRAME_RATE = 0xB1,
-    SET_FUNCTIONS = 0xB6,
     SET_POWER_1 = 0xC0,
     SET_POWER_2 = 0xC1,
     SET_VCOM_1 = 0xC5,
@@ -42,11 +41,9 @@ static const uint8_t setup[] = {
     1, SET_POWER_2, 0x10,
     2, SET_VCOM_1, 0x3E, 0x28,
     1, SET_VCOM_2, 0x86,
-    /* "COLMOD": 16 bits a pixel. "Frame Rate Control": 79 frames a second. "Display Function
-     * Control": 320 lines, driven from the first one. */
+    /* "COLMOD": 16 bits a pixel. "Frame Rate Control": 79 frames a second. */
     1, YB_MIPI_PIXEL_FORMAT, 0x55,
     2, SET_FRAME_RATE, 0x00, 0x18,
-    3, SET_FUNCTIONS, 0x08, 0x82, 0x27,
     /* "Enable 3G", "Gamma Set", "Positive Gamma Correction", "Negative Gamma Correction": one curve
      * for all three colours, as these glasses' makers recommend it. */
     1, ENABLE_3_GAMMAS, 0x00,
