@@ -266,8 +266,8 @@ double yb_player_still_s(const yb_player_t *player, double now_s)
     if (player->changed)
         return 0;
     if (player->paused || player->file == NULL)
-        return INFINITY;
+        return HUGE_VAL;
     if (player->play.turn_deg != 0 || player->play.sun_deg != 0)
         return 0;
-    return slides(player) ? fmax(player->since_s + player->play.slide_s - now_s, 0) : INFINITY;
+    return slides(player) ? fmax(player->since_s + player->play.slide_s - now_s, 0) : HUGE_VAL;
 }

@@ -2,8 +2,9 @@
 
 #include "panel_driver.h"
 
-/* ---- Displays ---------------------------------------------------------------------------------
- */
+#include <string.h>
+
+/* ---- Displays ----------------------------------------------------------------------------- */
 
 static bool lies_across(const yb_display_t *display)
 {
@@ -20,12 +21,12 @@ yb_screen_t yb_display_screen(const yb_display_t *display)
     return screen;
 }
 
-uint8_t yb_display_x_step(const yb_display_t *display)
+uint16_t yb_display_x_step(const yb_display_t *display)
 {
     return lies_across(display) ? display->panel->y_step : display->panel->x_step;
 }
 
-uint8_t yb_display_y_step(const yb_display_t *display)
+uint16_t yb_display_y_step(const yb_display_t *display)
 {
     return lies_across(display) ? display->panel->x_step : display->panel->y_step;
 }
@@ -44,7 +45,7 @@ bool yb_display_start(yb_display_t *display)
 
 /* Whether a stretch lies on the display and on its steps. Not from + length > size: int has 16 bits
  * on some targets. */
-static bool fits(uint16_t from, uint16_t length, uint16_t size, uint8_t step)
+static bool fits(uint16_t from, uint16_t length, uint16_t size, uint16_t step)
 {
     return length != 0 && length <= size && from <= size - length && from % step == 0 &&
            length % step == 0;
@@ -81,7 +82,8 @@ bool yb_display_finish(yb_display_t *display)
 
 bool yb_display_sleep(yb_display_t *display, bool asleep)
 {
-    return display->panel->driver->sleep(display, asleep);
+    const yb_panel_driver_t *driver = display->panel->driver;
+    return driver->sleep == NULL || driver->sleep(display, asleep);
 }
 
 bool yb_display_invert(yb_display_t *display, bool inverted)
@@ -101,8 +103,7 @@ bool yb_display_tick(yb_display_t *display)
     return driver->tick == NULL || driver->tick(display);
 }
 
-/* ---- For the drivers --------------------------------------------------------------------------
- */
+/* ---- For the drivers ---------------------------------------------------------------------- */
 
 void yb_panel_wait(const yb_display_t *display, uint32_t ms)
 {
@@ -154,6 +155,21 @@ bool yb_panel_send_pixels(const yb_display_t *display, const yb_panel_window_t *
     for (uint16_t row = 0; row < window->rows; row++) {
         if (!send(bus->context, window->pixels + row * window->pitch_bytes, row_bytes))
             return false;
+    }
+    return true;
+}
+
+bool yb_panel_send_black(const yb_display_t *display, uint32_t bytes)
+{
+    const yb_panel_bus_t *bus = display->bus;
+    uint8_t black[64];
+
+    memset(black, 0, sizeof black);
+    while (bytes > 0) {
+        const size_t count = bytes < sizeof black ? (size_t)bytes : sizeof black;
+        if (!bus->data(bus->context, black, count))
+            return false;
+        bytes -= (uint32_t)count;
     }
     return true;
 }

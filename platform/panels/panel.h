@@ -2,17 +2,17 @@
  *
  * Four thin layers lie between a picture and the wires, and each knows only the next one:
  *
- *     display        yb_display_t         a panel on a bus, turned as it was mounted  (the
- * caller's) panel          yb_panel_t           set-up, windows of pixels, sleep            (this
- * folder) command/data   yb_panel_bus_t       bytes marked as command or as data          (the
- * port's) pins           the port's           SPI hardware, a kernel driver, bits one by one, a
- * model
+ *     display       yb_display_t    a panel on a bus, turned as it was mounted; the caller's
+ *     panel         yb_panel_t      set-up, windows of pixels, sleep; this folder's
+ *     command/data  yb_panel_bus_t  bytes marked as command or as data; the port's
+ *     pins          the port's      SPI hardware, a kernel driver, bits one by one, a model
  *
  * A panel is a const description; all that changes at run time lies in the caller's yb_display_t.
  * Nothing here allocates, keeps state of its own, or needs an operating system, so the same files
  * are compiled into firmware, into the PC's tools and into the tests. A firmware of somebody else
- * takes panel.h, panel.c, the file of its panel (and mipi.c, if that file says so), and writes the
- * four functions command, data, reset and wait_ms. Calls on one bus must not overlap.
+ * takes panel.h, panel_driver.h, panel.c, the file of its panel (with mipi.h and mipi.c, if that
+ * file includes mipi.h), and writes the four functions command, data, reset and wait_ms. Calls on
+ * one bus must not overlap.
  *
  * Drawing a frame, band by band:
  *
@@ -36,16 +36,15 @@
 #include <stdint.h>
 #include <yamabiko/yamabiko.h>
 
-/* ---- What the port gives ----------------------------------------------------------------------
- */
+/* ---- What the port gives ------------------------------------------------------------------ */
 
 /* How a panel's driver reaches the display; filled in by the port, which owns the context. Each
  * function answers false when the bus failed (why is the port's to say). The bytes are borrowed for
  * the call. While a call lasts the display is selected; between calls it is not. */
 typedef struct {
     void *context;
-    bool (*command)(void *context, const uint8_t *bytes, size_t count);
-    bool (*data)(void *context, const uint8_t *bytes, size_t count);
+    bool (*command)(void *context, const uint8_t *bytes, size_t count); /* D/C low */
+    bool (*data)(void *context, const uint8_t *bytes, size_t count);    /* D/C high */
     /* As `data`, for pixels, but it may return while the bytes still go out, by DMA or in a thread:
      * they must stay as they are until `finish`, or any other function of the bus, has returned.
      * NULL where `data` will do. */
@@ -60,8 +59,7 @@ typedef struct {
     void (*wait_ms)(void *context, uint32_t ms);
 } yb_panel_bus_t;
 
-/* ---- Panels -----------------------------------------------------------------------------------
- */
+/* ---- Panels ------------------------------------------------------------------------------- */
 
 /* How far the picture is turned clockwise on the glass. */
 typedef enum {
@@ -88,6 +86,7 @@ typedef struct {
     /* Sets the display up after its reset, blackens it and switches it on. */
     bool (*start)(yb_display_t *display);
     bool (*write)(yb_display_t *display, const yb_panel_window_t *window);
+    /* NULL: there is no command for it. */
     bool (*sleep)(yb_display_t *display, bool asleep);
     /* Light for dark, in hardware. */
     bool (*invert)(yb_display_t *display, bool inverted);
@@ -114,13 +113,14 @@ typedef struct {
     uint32_t spi_hz;    /* the fastest serial clock that the datasheet allows */
     uint16_t ram_width; /* the chip's picture memory, pixels */
     uint16_t ram_height;
-    uint16_t
-        ram_x; /* its pixel that the glass shows top left, counted as the unturned picture is */
+    /* Where the unturned picture's top left pixel lies in that, counted as the picture is: from the
+     * chip's last column or row where YB_PANEL_MIRROR_X or _Y is set. */
+    uint16_t ram_x;
     uint16_t ram_y;
-    uint8_t flags;
-    uint8_t turns;  /* those that the chip does: bit 1 << yb_turn_t */
-    uint8_t x_step; /* windows begin and end on multiples of these, unturned */
+    uint16_t x_step; /* windows begin and end on multiples of these, unturned */
     uint8_t y_step;
+    uint8_t flags;
+    uint8_t turns;        /* those that the chip does: bit 1 << yb_turn_t */
     uint8_t window_bytes; /* what one window costs on the wire beside its pixels */
     uint8_t row_bytes;    /* what each of its rows costs beside its pixels */
     uint16_t tick_ms;     /* driver->tick is due so often; 0: never */
@@ -128,11 +128,30 @@ typedef struct {
     uint16_t setup_bytes;
 } yb_panel_t;
 
-/* Solomon SSD0323 on an OSRAM Pictiva 128 x 64 glass: 16 greys. */
-extern const yb_panel_t yb_panel_ssd0323;
+/* Solomon's OLED controllers. */
+extern const yb_panel_t yb_panel_ssd0323; /* OSRAM Pictiva 128 x 64, 16 greys */
+extern const yb_panel_t yb_panel_ssd1306; /* 128 x 64, lit or not */
+extern const yb_panel_t yb_panel_ssd1306_128x32;
+extern const yb_panel_t yb_panel_ssd1351; /* 128 x 128, colour */
+extern const yb_panel_t yb_panel_ssd1351_128x96;
 
-/* ---- Displays: a panel on a bus ---------------------------------------------------------------
- */
+/* Colour TFTs whose controllers speak MIPI DCS: mipi.c. */
+extern const yb_panel_t yb_panel_st7735; /* 128 x 160 */
+extern const yb_panel_t yb_panel_st7735_80x160;
+extern const yb_panel_t yb_panel_st7735_128x128;
+extern const yb_panel_t yb_panel_st7789; /* 240 x 240 */
+extern const yb_panel_t yb_panel_st7789_240x320;
+extern const yb_panel_t yb_panel_st7789_135x240;
+extern const yb_panel_t yb_panel_ili9341; /* 240 x 320 */
+extern const yb_panel_t yb_panel_gc9a01;  /* 240 x 240, round */
+
+/* Sharp's memory LCDs: reflecting, white or black. They start white, not black; only lines written
+ * after yb_display_invert are inverted; and yb_display_tick must be called, or the glass ages. */
+extern const yb_panel_t yb_panel_ls013b7dh03; /* 128 x 128 */
+extern const yb_panel_t yb_panel_ls013b7dh05; /* 144 x 168 */
+extern const yb_panel_t yb_panel_ls027b7dh01; /* 400 x 240 */
+
+/* ---- Displays: a panel on a bus ----------------------------------------------------------- */
 
 /* The caller's; to be zeroed but for the first three fields, which stay as they are. */
 struct yb_display {
@@ -142,16 +161,17 @@ struct yb_display {
     uint8_t state;  /* the driver's */
 };
 
-/* Resets the display, sets it up, blackens it and switches it on; also after a failure of the bus.
- * False also when the panel cannot be turned so, and then nothing is sent. */
+/* Resets the display, sets it up, blackens it (memory LCDs: whitens it) and switches it on; also
+ * after a failure of the bus. False also when the panel cannot be turned so, and then nothing is
+ * sent. */
 bool yb_display_start(yb_display_t *display);
 
 /* Size and pixels of the turned picture. */
 yb_screen_t yb_display_screen(const yb_display_t *display);
 
 /* The steps of windows in the turned picture. */
-uint8_t yb_display_x_step(const yb_display_t *display);
-uint8_t yb_display_y_step(const yb_display_t *display);
+uint16_t yb_display_x_step(const yb_display_t *display);
+uint16_t yb_display_y_step(const yb_display_t *display);
 
 /* Writes one window; false also when it does not lie on the display or not on its steps, and then
  * nothing is sent. Pixels are borrowed until yb_display_finish or the next call. */
@@ -163,7 +183,9 @@ bool yb_display_write_rows(yb_display_t *display, uint16_t y, uint16_t rows, con
 /* Waits until the pixels are on the display. */
 bool yb_display_finish(yb_display_t *display);
 
-/* Switches the display off or on again; the picture is kept. */
+/* Switches the display off or on again; the picture is kept. True, and nothing is sent, where no
+ * command does that: a memory LCD shows its picture for microwatts, and goes white while its pin
+ * DISP is low. */
 bool yb_display_sleep(yb_display_t *display, bool asleep);
 
 /* Shows light for dark and dark for light, or as it should be. */
@@ -176,8 +198,7 @@ bool yb_display_brightness(yb_display_t *display, uint8_t level);
 /* To be called every panel->tick_ms where that is not 0. */
 bool yb_display_tick(yb_display_t *display);
 
-/* ---- Lists, for programs on a PC: they link every panel there is ------------------------------
- */
+/* ---- Lists, for programs on a PC: they link every panel there is -------------------------- */
 
 /* The panel of that name, or NULL. */
 const yb_panel_t *yb_panel_find(const char *name);

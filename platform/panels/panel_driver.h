@@ -22,6 +22,9 @@ bool yb_panel_send(const yb_display_t *display, uint8_t command, const uint8_t *
 /* A window's pixels by the bus's `pixels`, in one piece if its rows follow each other. */
 bool yb_panel_send_pixels(const yb_display_t *display, const yb_panel_window_t *window);
 
+/* So many bytes of 0 by the bus's `data`. */
+bool yb_panel_send_black(const yb_display_t *display, uint32_t bytes);
+
 /* Waits where the port can. */
 void yb_panel_wait(const yb_display_t *display, uint32_t ms);
 

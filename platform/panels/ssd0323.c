@@ -33,10 +33,13 @@ enum {
     SET_VCOMH = 0xBE,
     SET_VSL = 0xBF,
 
-    REMAP_NIBBLES = 0x02, /* the high nibble is the left pixel */
+    REMAP_COLUMNS = 0x01, /* the first byte of a row drives the last two columns */
+    REMAP_NIBBLES = 0x02, /* the high nibble is the first pixel */
     REMAP_COM = 0x10,     /* rows scanned from the last one */
-    REMAP_COM_SPLIT =
-        0x40, /* odd rows are bonded on one side of the glass, even ones on the other */
+    REMAP_SPLIT = 0x40,   /* odd rows are bonded on one side of the glass, even ones on the other */
+
+    RAM_ROWS = 80,
+    FIRST_COM = 12, /* the outputs COM 12 to 75 drive the glass, its top row is COM 75 */
 
     RATED_CONTRAST = 50, /* of 127 */
     CONVERTER_SETTLES_MS = 100,
@@ -54,11 +57,7 @@ static const uint8_t setup[] = {
     1, SET_MULTIPLEX_RATIO, HEIGHT - 1,
     1, SET_ROW_PERIOD, 70,
     1, SET_PHASE_LENGTH, 0x22,
-    /* "Set Display Start Line", "Set Display Offset", "Set Re-map": how the glass is bonded. Its
-     * first row is the chip's COM 76, rows run upwards and alternate between both sides. */
     1, SET_START_LINE, 0,
-    1, SET_OFFSET, 76,
-    1, SET_REMAP, REMAP_NIBBLES | REMAP_COM | REMAP_COM_SPLIT,
     /* "Set Current Range", "Set Contrast Control Register": half range and 50 of 127 keep the glass
      * below its rated luminance, which decides how long it lives. */
     0, SET_CURRENT_HALF,
@@ -87,19 +86,19 @@ static bool set_window(const yb_display_t *display, uint16_t x, uint16_t y, uint
     return bus->command(bus->context, bytes, sizeof bytes);
 }
 
-/* Display RAM holds noise when the supply comes up (Datasheet, "Reset Circuit", does not list it
- * among what a reset clears), so it is blackened before it can be seen. */
-static bool blacken(const yb_display_t *display)
+/* Datasheet, "Set Re-map", "Set Display Offset". COM n shows row (n + offset) mod 80, n counted
+ * from COM 79 downwards when rows are remapped: the top row of the unturned picture, COM 75, is the
+ * fifth so counted. Remapping the columns turns the order of bytes round, but not that of the two
+ * pixels in each: the nibbles must change places as well. */
+static bool set_turn(const yb_display_t *display)
 {
-    static const uint8_t black[ROW_BYTES];
+    const bool turned = display->turn == YB_TURN_180;
+    const uint8_t remap =
+        turned ? REMAP_SPLIT | REMAP_COLUMNS : REMAP_SPLIT | REMAP_NIBBLES | REMAP_COM;
+    const uint8_t offset = turned ? RAM_ROWS - FIRST_COM : FIRST_COM + HEIGHT;
 
-    if (!set_window(display, 0, 0, WIDTH, HEIGHT))
-        return false;
-    for (int row = 0; row < HEIGHT; row++) {
-        if (!display->bus->data(display->bus->context, black, sizeof black))
-            return false;
-    }
-    return true;
+    return yb_panel_send(display, SET_REMAP, &remap, 1, false) &&
+           yb_panel_send(display, SET_OFFSET, &offset, 1, false);
 }
 
 static bool ssd0323_sleep(yb_display_t *display, bool asleep)
@@ -111,7 +110,11 @@ static bool ssd0323_start(yb_display_t *display)
 {
     const yb_panel_t *panel = display->panel;
 
-    if (!yb_panel_run(display, panel->setup, panel->setup_bytes, false) || !blacken(display))
+    /* Display RAM holds noise when the supply comes up (Datasheet, "Reset Circuit", does not list
+     * it among what a reset clears), so it is blackened before it can be seen. */
+    if (!yb_panel_run(display, panel->setup, panel->setup_bytes, false) || !set_turn(display) ||
+        !set_window(display, 0, 0, WIDTH, HEIGHT) ||
+        !yb_panel_send_black(display, (uint32_t)ROW_BYTES * HEIGHT))
         return false;
     /* Datasheet, "Power on sequence": the supply must stand before the display goes on. */
     yb_panel_wait(display, CONVERTER_SETTLES_MS);
@@ -151,8 +154,8 @@ const yb_panel_t yb_panel_ssd0323 = {
     /* Datasheet, "Serial Interface Characteristics": a clock cycle takes 250 ns or more. */
     .spi_hz = 4000000,
     .ram_width = WIDTH,
-    .ram_height = 80,
-    .turns = 1 << YB_TURN_0,
+    .ram_height = RAM_ROWS,
+    .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180,
     .x_step = 2,
     .y_step = 1,
     .window_bytes = 6,

@@ -17,7 +17,7 @@ typedef struct {
     size_t pitch;
     size_t cell_bytes; /* of one of its rows */
     uint16_t cells;    /* in a row */
-    uint8_t x_step, y_step;
+    uint16_t x_step, y_step;
     uint16_t gap_cells; /* so many equal cells cost less than another window */
     rect_t open[OPEN_MOST];
     uint8_t opened;
@@ -105,7 +105,7 @@ static bool cell_differs(const search_t *search, const uint8_t *pixels, uint16_t
     const uint8_t *shown = search->update->shown + y * search->pitch + at;
     pixels += at;
 
-    for (uint8_t row = 0; row < search->y_step; row++) {
+    for (uint16_t row = 0; row < search->y_step; row++) {
         for (size_t i = 0; i < search->cell_bytes; i++) {
             if (shown[i] != pixels[i])
                 return true;
@@ -166,7 +166,7 @@ static search_t search_of(yb_update_t *update, const yb_screen_t *screen)
 static bool band_fits(const yb_update_t *update, const yb_screen_t *screen, uint16_t y,
                       uint16_t rows)
 {
-    const uint8_t step = yb_display_y_step(update->display);
+    const uint16_t step = yb_display_y_step(update->display);
     return rows <= screen->height && y <= screen->height - rows && y % step == 0 &&
            rows % step == 0;
 }

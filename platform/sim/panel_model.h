@@ -14,7 +14,10 @@
  *     if (yb_panel_model_picture(model, &picture)) ...
  *     yb_panel_model_free(model);
  *
- * Chip select is not a byte's affair but a panel's: tell it by yb_panel_model_select. For PCs only.
+ * Chip select is not a byte's affair but a panel's: tell it by yb_panel_model_select. Panels that
+ * frame their bytes by it (Sharp's) take none without; the others count as selected until they are
+ * told anything. A picture in mirror writing is shown as that where the chip might have a use for
+ * it (address order by columns), and is an error where it cannot be meant. For PCs only.
  */
 #ifndef YB_PANEL_MODEL_H
 #define YB_PANEL_MODEL_H
@@ -38,12 +41,13 @@ typedef struct {
  * panels' names in platform/panels. */
 const char *yb_panel_model_name(size_t index);
 
-/* A panel that has just got its supply, not yet reset, not selected. NULL: no panel of that name,
- * or no memory. */
+/* A panel that has just got its supply and is as its own power-on reset leaves it, not selected.
+ * NULL: no panel of that name, or no memory. At most about 400 KB. */
 yb_panel_model_t *yb_panel_model_new(const char *name);
 void yb_panel_model_free(yb_panel_model_t *model);
 
-/* The reset line was pulled and let go. Picture memory holds noise, as real one does. */
+/* The reset line was pulled and let go; panels without one lose their supply for a moment. Picture
+ * memory holds noise, as real one does. What was wrong before stays so. */
 void yb_panel_model_reset(yb_panel_model_t *model);
 
 /* Chip select becomes active or not, whatever its level. False, and from then on, once anything was
@@ -62,7 +66,7 @@ void yb_panel_model_wait(yb_panel_model_t *model, uint32_t us);
  * glass. */
 bool yb_panel_model_picture(yb_panel_model_t *model, yb_model_picture_t *picture);
 
-/* Whether the display is on and awake. */
+/* Whether the display is on and awake, and has the supply that its set-up gives it. */
 bool yb_panel_model_lit(const yb_panel_model_t *model);
 
 /* Bytes taken since it was made. */

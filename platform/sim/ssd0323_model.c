@@ -1,255 +1,239 @@
-#include "ssd0323_model.h"
+/* Model of the Solomon SSD0323 on an OSRAM Pictiva OS128064 glass.
+ *
+ * "Datasheet" is Solomon Systech's SSD0323, 128 x 80 dot matrix driver with 16 grey levels.
+ * Commands and their arguments go with D/C low, display RAM with D/C high. */
+#include "model_parts.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 enum {
+    COLUMNS = 64, /* bytes in a row, two pixels each */
+    RAM_ROWS = 80,
+
+    /* Datasheet, "Set Re-map". */
     REMAP_COLUMNS = 0x01,
     REMAP_NIBBLES = 0x02,
     REMAP_VERTICAL = 0x04,
     REMAP_COM = 0x10,
     REMAP_COM_SPLIT = 0x40,
+    REMAP_NONE = 0x28, /* bits that do not exist */
 
-    /* How the OSRAM glass is bonded to the chip. */
-    GLASS_REMAP = REMAP_COM | REMAP_COM_SPLIT,
-    GLASS_OFFSET = 76,
+    /* How the glass is bonded: its rows, from the top, to COM 75 down to COM 12. With COM remap,
+     * COM c takes row 79 - c + offset, else c + offset, of 80 (Datasheet, "Set Display Offset"); so
+     * these offsets bring row 0 to the top, and, turned, to the bottom. */
+    OFFSET = 76,
+    OFFSET_TURNED = 68,
 };
 
-/* Command table of the datasheet: how many argument bytes follow, and what the first one may be
- * (the others are checked where they are used). */
-static const struct {
-    uint8_t command;
-    uint8_t args;
-    uint8_t least;
-    uint8_t most;
-} commands[] = {
-    {0x15, 2, 0, YB_SSD0323_COLUMNS - 1},  /* column address */
-    {0x75, 2, 0, YB_SSD0323_RAM_ROWS - 1}, /* row address */
-    {0x81, 1, 0, 127},                     /* contrast */
-    {0x84, 0, 0, 0},                       /* current range: quarter, half, full */
-    {0x85, 0, 0, 0},
-    {0x86, 0, 0, 0},
-    {0xA0, 1, 0, 0x57},                    /* remap; bit 3 is tested below */
-    {0xA1, 1, 0, YB_SSD0323_RAM_ROWS - 1}, /* start line */
-    {0xA2, 1, 0, YB_SSD0323_RAM_ROWS - 1}, /* offset */
-    {0xA4, 0, 0, 0},                       /* mode: normal, all on, all off, inverse */
-    {0xA5, 0, 0, 0},
-    {0xA6, 0, 0, 0},
-    {0xA7, 0, 0, 0},
-    {0xA8, 1, 15, YB_SSD0323_RAM_ROWS - 1}, /* multiplex ratio */
-    {0xAD, 1, 2, 3},                        /* master configuration */
-    {0xAE, 0, 0, 0},                        /* off, on */
-    {0xAF, 0, 0, 0},
-    {0xB1, 1, 0x11, 0xFF}, /* phase lengths; neither nibble may be 0 */
-    {0xB2, 1, 2, 127},     /* row period */
-    {0xB3, 1, 0, 0xFF},    /* clock */
-    {0xB8, 8, 0, 7},       /* grey table; level 1 has three bits */
-    {0xBC, 1, 0, 0x1F},    /* precharge voltage */
-    {0xBE, 1, 0, 0x1F},    /* VCOMH */
-    {0xBF, 1, 0, 0x0F},    /* VSL */
-    {0xE3, 0, 0, 0},       /* no operation */
-};
+typedef struct {
+    uint8_t ram[RAM_ROWS][COLUMNS];
+    yb_model_decoder_t decoder;
+    yb_model_window_t window;
+    bool on;
+    uint8_t mode; /* A4h normal, A5h all on, A6h all off, A7h inverse */
+    uint8_t remap;
+    uint8_t start_line;
+    uint8_t offset;
+    uint8_t rows_driven;
+} chip_t;
 
-static bool fail(yb_ssd0323_model_t *model, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static bool fail(yb_ssd0323_model_t *model, const char *format, ...)
+static bool set_column(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
 {
-    va_list args;
+    chip_t *chip = model->chip;
 
-    const int used =
-        snprintf(model->error, sizeof model->error, "byte %lu: ", (unsigned long)model->bytes);
-    va_start(args, format);
-    (void)vsnprintf(model->error + used, sizeof model->error - (size_t)used, format, args);
-    va_end(args);
-    model->failed = true;
-    return false;
+    (void)code;
+    chip->window.full = false;
+    return yb_model_range_set(model, &chip->window.column, "column", args[0], args[1], COLUMNS);
 }
 
-void yb_ssd0323_model_reset(yb_ssd0323_model_t *model)
+static bool set_row(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
 {
-    memset(model, 0, sizeof *model);
-    model->column_last = YB_SSD0323_COLUMNS - 1;
-    model->row_last = YB_SSD0323_RAM_ROWS - 1;
-    model->mode = 0xA4;
-    model->rows_shown = YB_SSD0323_RAM_ROWS;
-    model->contrast = 64;
+    chip_t *chip = model->chip;
 
-    /* Not zeros: a driver that does not clear the screen must not look as if it had. */
-    uint32_t noise = 0x5EED;
-    for (int row = 0; row < YB_SSD0323_RAM_ROWS; row++) {
-        for (int column = 0; column < YB_SSD0323_COLUMNS; column++) {
-            noise = noise * 1664525U + 1013904223U;
-            model->ram[row][column] = (uint8_t)(noise >> 24);
+    (void)code;
+    chip->window.full = false;
+    return yb_model_range_set(model, &chip->window.row, "row", args[0], args[1], RAM_ROWS);
+}
+
+static bool set_remap(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
+{
+    chip_t *chip = model->chip;
+
+    (void)code;
+    if ((args[0] & REMAP_NONE) != 0)
+        return yb_model_fail(model, "remap %02Xh sets bits that the chip does not have", args[0]);
+    chip->remap = args[0];
+    return true;
+}
+
+static bool set_rows(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
+{
+    chip_t *chip = model->chip;
+
+    if (code == 0xA1)
+        chip->start_line = args[0];
+    else if (code == 0xA2)
+        chip->offset = args[0];
+    else
+        chip->rows_driven = (uint8_t)(args[0] + 1);
+    return true;
+}
+
+static bool set_mode(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
+{
+    chip_t *chip = model->chip;
+
+    (void)args;
+    chip->mode = code;
+    return true;
+}
+
+static bool set_on(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
+{
+    chip_t *chip = model->chip;
+
+    (void)args;
+    chip->on = code == 0xAF;
+    return true;
+}
+
+static bool set_phases(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
+{
+    (void)code;
+    return (args[0] & 0x0F) != 0 ||
+           yb_model_fail(model, "phase length %02Xh has a phase of no clocks", args[0]);
+}
+
+/* Datasheet, "Command Table". */
+static const yb_model_command_t commands[] = {
+    {0x15, 0x15, 2, 0, COLUMNS - 1, set_column},
+    {0x75, 0x75, 2, 0, RAM_ROWS - 1, set_row},
+    {0x81, 0x81, 1, 0, 127, NULL}, /* contrast */
+    {0x84, 0x86, 0, 0, 0, NULL},   /* current range: quarter, half, full */
+    {0xA0, 0xA0, 1, 0, 0x7F, set_remap},
+    {0xA1, 0xA2, 1, 0, RAM_ROWS - 1, set_rows}, /* start line, offset */
+    {0xA4, 0xA7, 0, 0, 0, set_mode},
+    {0xA8, 0xA8, 1, 15, RAM_ROWS - 1, set_rows}, /* multiplex ratio */
+    {0xAD, 0xAD, 1, 2, 3, NULL},                 /* master configuration */
+    {0xAE, 0xAF, 0, 0, 0, set_on},
+    {0xB1, 0xB1, 1, 0x11, 0xFF, set_phases}, /* neither nibble may be 0 */
+    {0xB2, 0xB2, 1, 2, 127, NULL},           /* row period */
+    {0xB3, 0xB3, 1, 0, 0xFF, NULL},          /* clock */
+    {0xB8, 0xB8, 8, 0, 7, NULL},             /* grey table; level 1 has three bits */
+    {0xBC, 0xBC, 1, 0, 0x1F, NULL},          /* precharge voltage */
+    {0xBE, 0xBE, 1, 0, 0x1F, NULL},          /* VCOMH */
+    {0xBF, 0xBF, 1, 0, 0x0F, NULL},          /* VSL */
+    {0xE3, 0xE3, 0, 0, 0, NULL},             /* no operation */
+};
+
+static void reset(yb_panel_model_t *model)
+{
+    chip_t *chip = model->chip;
+
+    memset(chip, 0, sizeof *chip);
+    yb_model_noise(model, chip->ram, sizeof chip->ram);
+    yb_model_window_reset(&chip->window, COLUMNS, RAM_ROWS);
+    chip->mode = 0xA4;
+    chip->rows_driven = RAM_ROWS;
+}
+
+static bool take_data(yb_panel_model_t *model, uint8_t byte)
+{
+    chip_t *chip = model->chip;
+    yb_model_window_t *window = &chip->window;
+
+    if (yb_model_unfinished(&chip->decoder))
+        return yb_model_fail(model, "data where command %02Xh wants argument %d of %d",
+                             chip->decoder.code, chip->decoder.got + 1, chip->decoder.command.args);
+    if (!yb_model_window_open(model, window))
+        return false;
+    chip->ram[window->row.at][window->column.at] = byte;
+    yb_model_window_step(window, (chip->remap & REMAP_VERTICAL) != 0);
+    return true;
+}
+
+static bool take_byte(yb_panel_model_t *model, bool is_data, uint8_t byte)
+{
+    static const yb_model_table_t table = {commands, sizeof commands / sizeof commands[0]};
+    chip_t *chip = model->chip;
+
+    if (is_data)
+        return take_data(model, byte);
+    if (yb_model_unfinished(&chip->decoder))
+        return yb_model_argument(model, &chip->decoder, byte);
+    return yb_model_begin(model, &chip->decoder, yb_model_find(table, byte), byte);
+}
+
+static bool is_lit(const yb_panel_model_t *model)
+{
+    const chip_t *chip = model->chip;
+    return chip->on;
+}
+
+static bool finished(yb_panel_model_t *model)
+{
+    const chip_t *chip = model->chip;
+    return yb_model_finished(model, &chip->decoder);
+}
+
+static bool set_up_for_glass(yb_panel_model_t *model)
+{
+    const chip_t *chip = model->chip;
+    const bool turned = (chip->remap & REMAP_COLUMNS) != 0;
+    const int offset = turned ? OFFSET_TURNED : OFFSET;
+
+    if ((chip->remap & REMAP_COM_SPLIT) == 0)
+        return yb_model_fail(model, "remap %02Xh tears the picture on this glass", chip->remap);
+    if (turned == ((chip->remap & REMAP_COM) != 0))
+        return yb_model_fail(model, "remap %02Xh mirrors the picture on this glass", chip->remap);
+    if (chip->offset != offset)
+        return yb_model_fail(model, "offset %u shifts the picture: the glass begins at %d",
+                             chip->offset, offset);
+    if (chip->rows_driven != model->kind->height)
+        return yb_model_fail(model, "%u rows are driven, and the glass has %u", chip->rows_driven,
+                             model->kind->height);
+    return true;
+}
+
+static uint8_t shown(const chip_t *chip, uint8_t byte)
+{
+    if (chip->mode == 0xA6)
+        return 0x00;
+    if (chip->mode == 0xA5)
+        return 0xFF;
+    return chip->mode == 0xA7 ? (uint8_t)~byte : byte;
+}
+
+/* Unturned, the bits 7 to 4 of a byte are the left pixel if nibbles are remapped. */
+static bool draw(yb_panel_model_t *model)
+{
+    const chip_t *chip = model->chip;
+    const unsigned width = model->kind->width;
+    const unsigned height = model->kind->height;
+    const bool turned = (chip->remap & REMAP_COLUMNS) != 0;
+    const bool high_first = (chip->remap & REMAP_NIBBLES) != 0;
+
+    if (!set_up_for_glass(model))
+        return false;
+    for (unsigned y = 0; y < height; y++) {
+        const unsigned line = turned ? height - 1 - y : y;
+        const uint8_t *row = chip->ram[(chip->start_line + line) % RAM_ROWS];
+        for (unsigned x = 0; x < width; x++) {
+            const unsigned column = turned ? COLUMNS - 1 - x / 2 : x / 2;
+            const uint8_t byte = shown(chip, row[column]);
+            const unsigned level = (x % 2 == 0) == high_first ? byte >> 4 : byte & 0x0F;
+            const uint8_t grey = (uint8_t)(17 * level);
+            yb_model_put(model, x, y, grey, grey, grey);
         }
     }
-}
-
-static bool set_addresses(yb_ssd0323_model_t *model)
-{
-    const bool columns = model->command == 0x15;
-    const uint8_t first = model->args[0];
-    const uint8_t last = model->args[1];
-    const uint8_t most = columns ? YB_SSD0323_COLUMNS - 1 : YB_SSD0323_RAM_ROWS - 1;
-
-    if (last > most)
-        return fail(model, "%s address %u is beyond the last one, %u", columns ? "column" : "row",
-                    last, most);
-    if (last < first)
-        return fail(model, "the window ends at %s %u, before it begins at %u",
-                    columns ? "column" : "row", last, first);
-    if (columns) {
-        model->column = model->column_first = first;
-        model->column_last = last;
-    } else {
-        model->row = model->row_first = first;
-        model->row_last = last;
-    }
-    model->window_full = false;
     return true;
 }
 
-static bool run_command(yb_ssd0323_model_t *model)
-{
-    const uint8_t arg = model->args[0];
-
-    switch (model->command) {
-    case 0x15:
-    case 0x75:
-        return set_addresses(model);
-    case 0x81:
-        model->contrast = arg;
-        break;
-    case 0xA0:
-        if ((arg & 0x28) != 0)
-            return fail(model, "remap %02Xh sets bits that the chip does not have", arg);
-        model->remap = arg;
-        break;
-    case 0xA1:
-        model->start_line = arg;
-        break;
-    case 0xA2:
-        model->offset = arg;
-        break;
-    case 0xA4:
-    case 0xA5:
-    case 0xA6:
-    case 0xA7:
-        model->mode = model->command;
-        break;
-    case 0xA8:
-        model->rows_shown = (uint8_t)(arg + 1);
-        break;
-    case 0xAE:
-    case 0xAF:
-        model->on = model->command == 0xAF;
-        break;
-    case 0xB1:
-        if ((arg & 0x0F) == 0)
-            return fail(model, "phase length %02Xh has a phase of no clocks", arg);
-        break;
-    default:
-        break; /* voltages and times: they change no pixel */
-    }
-    return true;
-}
-
-static bool take_command_byte(yb_ssd0323_model_t *model, uint8_t byte)
-{
-    const size_t count = sizeof commands / sizeof commands[0];
-    size_t i = 0;
-
-    if (model->args_got < model->args_wanted) {
-        model->args[model->args_got++] = byte;
-    } else {
-        model->command = byte;
-        model->args_got = 0;
-    }
-    while (i < count && commands[i].command != model->command)
-        i++;
-    if (i == count)
-        return fail(model, "%02Xh is no command of this chip", byte);
-    model->args_wanted = commands[i].args;
-    if (model->args_got == 1 && (byte < commands[i].least || byte > commands[i].most))
-        return fail(model, "command %02Xh takes %02Xh to %02Xh, not %02Xh", model->command,
-                    commands[i].least, commands[i].most, byte);
-    return model->args_got < model->args_wanted || run_command(model);
-}
-
-/* Steps `*at` from first to last; true when it went round. */
-static bool step(uint8_t *at, uint8_t first, uint8_t last)
-{
-    if (*at < last) {
-        (*at)++;
-        return false;
-    }
-    *at = first;
-    return true;
-}
-
-static bool take_data_byte(yb_ssd0323_model_t *model, uint8_t byte)
-{
-    if (model->args_got < model->args_wanted)
-        return fail(model, "data where command %02Xh wants argument %u of %u", model->command,
-                    model->args_got + 1U, model->args_wanted);
-    if (model->window_full)
-        return fail(model, "data beyond the end of the window");
-    model->ram[model->row][model->column] = byte;
-    if ((model->remap & REMAP_VERTICAL) != 0)
-        model->window_full = step(&model->row, model->row_first, model->row_last) &&
-                             step(&model->column, model->column_first, model->column_last);
-    else
-        model->window_full = step(&model->column, model->column_first, model->column_last) &&
-                             step(&model->row, model->row_first, model->row_last);
-    return true;
-}
-
-bool yb_ssd0323_model_byte(yb_ssd0323_model_t *model, bool is_data, uint8_t byte)
-{
-    if (model->failed)
-        return false;
-    model->bytes++;
-    return is_data ? take_data_byte(model, byte) : take_command_byte(model, byte);
-}
-
-static bool set_up_for_glass(yb_ssd0323_model_t *model)
-{
-    if ((model->remap & ~(REMAP_NIBBLES | REMAP_VERTICAL)) != GLASS_REMAP)
-        return fail(model, "remap %02Xh turns or tears the picture on this glass", model->remap);
-    if (model->offset != GLASS_OFFSET)
-        return fail(model, "offset %u shifts the picture: the glass begins at %d", model->offset,
-                    GLASS_OFFSET);
-    if (model->rows_shown != YB_SSD0323_HEIGHT)
-        return fail(model, "%u rows are driven, and the glass has %d", model->rows_shown,
-                    YB_SSD0323_HEIGHT);
-    return true;
-}
-
-static uint8_t shown(const yb_ssd0323_model_t *model, uint8_t byte)
-{
-    if (!model->on || model->mode == 0xA6)
-        return 0x00;
-    if (model->mode == 0xA5)
-        return 0xFF;
-    if ((model->remap & REMAP_NIBBLES) == 0)
-        byte = (uint8_t)(byte << 4 | byte >> 4);
-    return model->mode == 0xA7 ? (uint8_t)~byte : byte;
-}
-
-bool yb_ssd0323_model_picture(yb_ssd0323_model_t *model, uint8_t picture[YB_SSD0323_PICTURE_BYTES])
-{
-    if (model->failed)
-        return false;
-    if (model->args_got < model->args_wanted)
-        return fail(model, "command %02Xh still wants %d bytes", model->command,
-                    model->args_wanted - model->args_got);
-    if (model->on && !set_up_for_glass(model))
-        return false;
-    for (int y = 0; y < YB_SSD0323_HEIGHT; y++) {
-        const uint8_t *row = model->ram[(model->start_line + y) % YB_SSD0323_RAM_ROWS];
-        for (int i = 0; i < YB_SSD0323_COLUMNS; i++)
-            picture[y * YB_SSD0323_COLUMNS + i] = shown(model, row[i]);
-    }
-    return true;
-}
+const yb_model_family_t yb_model_ssd0323 = {
+    .chip_bytes = sizeof(chip_t),
+    .reset = reset,
+    .byte = take_byte,
+    .lit = is_lit,
+    .finished = finished,
+    .picture = draw,
+};

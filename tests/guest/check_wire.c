@@ -1,12 +1,14 @@
-/* check_wire TRACING BASE SCK MOSI CS DC RESET EXPECTED PICTURE
+/* check_wire [--select-high] [--turn 90|180|270] PANEL TRACING BASE SCK MOSI CS DC RESET EXPECTED
+ *            PICTURE
  *
- * Turns the trace of a panel's GPIO lines (numbers from BASE) back into bytes with their D/C, hands
- * them to the model of the SSD0323, and compares its picture with the file EXPECTED: two pixels a
- * byte, high nibble left, or a PNG whose greys are 17 times the levels. PICTURE gets it as PGM, to
- * look at. Anything that a display could take amiss is an error: data that move while the clock is
- * high, a byte cut short, bytes while the display is not selected. */
+ * Turns the trace of a panel's GPIO lines (numbers from BASE, "-" for one that is not wired) back
+ * into bytes with their D/C, hands them to the model of PANEL, and compares its picture with the
+ * file EXPECTED: a PNG, or for displays of 16 greys two pixels a byte, high nibble left. EXPECTED
+ * may be turned clockwise on the glass. PICTURE gets what the glass shows as PPM, to look at.
+ * Anything that a display could take amiss is an error: data that move while the clock is high, a
+ * byte cut short, bytes while the display is not selected. */
 #include "gpio_trace.h"
-#include "ssd0323_model.h"
+#include "panel_model.h"
 
 #include <png.h>
 #include <stdint.h>
@@ -24,14 +26,15 @@ enum {
 };
 
 typedef struct {
-    unsigned number[LINES];
+    long number[LINES]; /* -1: not wired */
     int level[LINES];
+    int selected;  /* the level of chip select while it is active */
     unsigned bits; /* of the byte that is on its way */
     uint8_t byte;
     unsigned long sets[LINES];
     unsigned long transfers;
     unsigned long bytes;
-    yb_ssd0323_model_t model;
+    yb_panel_model_t *model;
     const char *wrong;
 } wire_t;
 
@@ -43,7 +46,7 @@ static bool refuse(wire_t *wire, const char *why)
 
 static bool clock_rises(wire_t *wire)
 {
-    if (wire->level[CS] != 0)
+    if (wire->level[CS] != wire->selected)
         return refuse(wire, "the clock rose while the display was not selected");
     if (wire->level[RESET] == 0)
         return refuse(wire, "the clock rose while the display was held in reset");
@@ -52,8 +55,8 @@ static bool clock_rises(wire_t *wire)
         return true;
     wire->bits = 0;
     wire->bytes++;
-    if (!yb_ssd0323_model_byte(&wire->model, wire->level[DC] != 0, wire->byte))
-        return refuse(wire, wire->model.error);
+    if (!yb_panel_model_byte(wire->model, wire->level[DC] != 0, wire->byte))
+        return refuse(wire, yb_panel_model_error(wire->model));
     return true;
 }
 
@@ -62,7 +65,7 @@ static bool line_set(void *context, unsigned number, int value)
     wire_t *wire = context;
     int line = 0;
 
-    while (line < LINES && wire->number[line] != number)
+    while (line < LINES && wire->number[line] != (long)number)
         line++;
     if (line == LINES)
         return true;
@@ -75,10 +78,10 @@ static bool line_set(void *context, unsigned number, int value)
         return value == 0 || clock_rises(wire);
     case RESET:
         if (value == 0)
-            yb_ssd0323_model_reset(&wire->model);
+            yb_panel_model_reset(wire->model);
         return true;
     case CS:
-        wire->transfers += value == 0;
+        wire->transfers += value == wire->selected;
         break;
     default:
         break;
@@ -87,86 +90,112 @@ static bool line_set(void *context, unsigned number, int value)
         return refuse(wire, "a line other than the clock moved while the clock was high");
     if (line != MOSI && wire->bits != 0)
         return refuse(wire, "chip select or D/C moved in the middle of a byte");
+    if (line == CS && !yb_panel_model_select(wire->model, value == wire->selected))
+        return refuse(wire, yb_panel_model_error(wire->model));
     return true;
 }
 
-static void write_pgm(const char *path, const uint8_t *picture)
+static void write_ppm(const char *path, const yb_model_picture_t *picture)
 {
+    const size_t pixels = (size_t)picture->width * picture->height;
     FILE *file = fopen(path, "wb");
 
     if (file == NULL) {
         perror(path);
         return;
     }
-    fprintf(file, "P5 %d %d 15\n", YB_SSD0323_WIDTH, YB_SSD0323_HEIGHT);
-    for (int i = 0; i < YB_SSD0323_PICTURE_BYTES; i++) {
-        putc(picture[i] >> 4, file);
-        putc(picture[i] & 15, file);
-    }
+    fprintf(file, "P6 %u %u 255\n", picture->width, picture->height);
+    (void)fwrite(picture->rgb, 3, pixels, file);
     fclose(file);
 }
 
-static bool read_raw(const char *path, uint8_t expected[YB_SSD0323_PICTURE_BYTES])
+/* RGB of a file with two pixels of 16 greys a byte; the caller's to free, NULL: it cannot be had.
+ */
+static uint8_t *read_raw(const char *path, unsigned width, unsigned height)
 {
-    uint8_t one_more;
+    const size_t bytes = (size_t)width * height / 2;
+    uint8_t *rgb = malloc(bytes * 6);
     FILE *file = fopen(path, "rb");
 
-    if (file == NULL) {
+    if (rgb == NULL || file == NULL) {
         perror(path);
-        return false;
+    } else {
+        int byte = 0;
+        size_t got = 0;
+        while ((byte = getc(file)) != EOF && got < bytes) {
+            memset(rgb + 6 * got, 17 * (byte >> 4), 3);
+            memset(rgb + 6 * got++ + 3, 17 * (byte & 15), 3);
+        }
+        if (got == bytes && byte == EOF) {
+            fclose(file);
+            return rgb;
+        }
+        fprintf(stderr, "%s: a frame has %zu bytes, and this has not\n", path, bytes);
     }
-    const size_t got = fread(expected, 1, YB_SSD0323_PICTURE_BYTES, file);
-    const bool is_frame = got == YB_SSD0323_PICTURE_BYTES && fread(&one_more, 1, 1, file) == 0;
-    fclose(file);
-    if (!is_frame)
-        fprintf(stderr, "%s: a frame has %d bytes, and this has not\n", path,
-                YB_SSD0323_PICTURE_BYTES);
-    return is_frame;
+    if (file != NULL)
+        fclose(file);
+    free(rgb);
+    return NULL;
 }
 
-static bool read_png(const char *path, uint8_t expected[YB_SSD0323_PICTURE_BYTES])
+static uint8_t *read_png(const char *path, unsigned width, unsigned height)
 {
-    static uint8_t grey[YB_SSD0323_WIDTH * YB_SSD0323_HEIGHT];
     png_image image = {.version = PNG_IMAGE_VERSION};
+    uint8_t *rgb = NULL;
 
     if (!png_image_begin_read_from_file(&image, path)) {
         fprintf(stderr, "%s: %s\n", path, image.message);
-        return false;
+        return NULL;
     }
-    image.format = PNG_FORMAT_GRAY;
-    if (image.width != YB_SSD0323_WIDTH || image.height != YB_SSD0323_HEIGHT) {
+    image.format = PNG_FORMAT_RGB;
+    if (image.width != width || image.height != height) {
         fprintf(stderr, "%s: %u x %u is not the panel's size\n", path, image.width, image.height);
         png_image_free(&image);
-        return false;
+        return NULL;
     }
-    if (!png_image_finish_read(&image, NULL, grey, 0, NULL)) {
+    rgb = malloc(PNG_IMAGE_SIZE(image));
+    if (rgb == NULL || !png_image_finish_read(&image, NULL, rgb, 0, NULL)) {
         fprintf(stderr, "%s: %s\n", path, image.message);
-        return false;
+        png_image_free(&image);
+        free(rgb);
+        return NULL;
     }
-    for (size_t i = 0; i < YB_SSD0323_PICTURE_BYTES; i++) {
-        if (grey[2 * i] % 17 != 0 || grey[2 * i + 1] % 17 != 0) {
-            fprintf(stderr, "%s: has greys that the panel has not\n", path);
-            return false;
-        }
-        expected[i] = (uint8_t)(grey[2 * i] / 17 << 4 | grey[2 * i + 1] / 17);
-    }
-    return true;
+    return rgb;
 }
 
-static bool same_as_file(const char *path, const uint8_t *picture)
+/* The pixel of the glass that shows x, y of a picture turned clockwise on it. */
+static const uint8_t *shown_at(const yb_model_picture_t *picture, unsigned turn, unsigned x,
+                               unsigned y)
 {
-    uint8_t expected[YB_SSD0323_PICTURE_BYTES];
+    const unsigned right = picture->width - 1U;
+    const unsigned bottom = picture->height - 1U;
+    const unsigned at[4][2] = {{x, y}, {right - y, x}, {right - x, bottom - y}, {y, bottom - x}};
+    const unsigned *place = at[turn / 90];
+
+    return picture->rgb + 3 * ((size_t)place[1] * picture->width + place[0]);
+}
+
+static bool same_as_file(const char *path, const yb_model_picture_t *picture, unsigned turn)
+{
+    const bool aside = turn % 180 != 0;
+    const unsigned width = aside ? picture->height : picture->width;
+    const unsigned height = aside ? picture->width : picture->height;
     const char *ending = strrchr(path, '.');
     const bool is_png = ending != NULL && strcmp(ending, ".png") == 0;
-    int different = 0;
+    unsigned different = 0;
 
-    if (!(is_png ? read_png(path, expected) : read_raw(path, expected)))
+    uint8_t *expected = is_png ? read_png(path, width, height) : read_raw(path, width, height);
+    if (expected == NULL)
         return false;
-    for (int i = 0; i < YB_SSD0323_PICTURE_BYTES; i++)
-        different += picture[i] != expected[i];
+    for (unsigned y = 0; y < height; y++) {
+        for (unsigned x = 0; x < width; x++)
+            different += memcmp(expected + 3 * ((size_t)y * width + x),
+                                shown_at(picture, turn, x, y), 3) != 0;
+    }
+    free(expected);
     if (different != 0)
-        fprintf(stderr, "the panel shows another picture: %d of %d bytes differ\n", different,
-                YB_SSD0323_PICTURE_BYTES);
+        fprintf(stderr, "the panel shows another picture: %u of %u pixels differ\n", different,
+                width * height);
     return different == 0;
 }
 
@@ -182,37 +211,66 @@ static bool few_enough_calls(const wire_t *wire)
     return true;
 }
 
-int main(int argc, char **argv)
+static long line_number(const char *base, const char *line)
 {
-    static wire_t wire = {.level = {0, 0, 1, 0, 1}};
-    uint8_t picture[YB_SSD0323_PICTURE_BYTES];
+    return strcmp(line, "-") == 0 ? -1 : strtol(base, NULL, 10) + strtol(line, NULL, 10);
+}
 
-    if (argc != 10) {
-        fputs("check_wire TRACING BASE SCK MOSI CS DC RESET EXPECTED PICTURE\n", stderr);
-        return 2;
-    }
+static int check(wire_t *wire, char **argv, unsigned turn)
+{
+    yb_model_picture_t picture;
+
     for (int line = 0; line < LINES; line++)
-        wire.number[line] =
-            (unsigned)(strtoul(argv[2], NULL, 10) + strtoul(argv[3 + line], NULL, 10));
-    yb_ssd0323_model_reset(&wire.model);
-    if (!yb_gpio_trace_read(argv[1], line_set, &wire)) {
-        fprintf(stderr, "after %lu bytes: %s\n", wire.bytes,
-                wire.wrong != NULL ? wire.wrong : "the trace ended");
+        wire->number[line] = line_number(argv[2], argv[3 + line]);
+    if (!yb_gpio_trace_read(argv[1], line_set, wire)) {
+        fprintf(stderr, "after %lu bytes: %s\n", wire->bytes,
+                wire->wrong != NULL ? wire->wrong : "the trace ended");
         return 1;
     }
-    if (wire.bits != 0 || wire.level[CS] != 1) {
+    if (wire->bits != 0 || wire->level[CS] == wire->selected) {
         fputs("the last transfer was cut short\n", stderr);
         return 1;
     }
-    printf("%lu bytes in %lu transfers; the clock line was set %lu times\n", wire.bytes,
-           wire.transfers, wire.sets[SCK]);
-    if (!yb_ssd0323_model_picture(&wire.model, picture)) {
-        fprintf(stderr, "the panel shows nothing: %s\n", wire.model.error);
+    printf("%lu bytes in %lu transfers; the clock line was set %lu times\n", wire->bytes,
+           wire->transfers, wire->sets[SCK]);
+    if (!yb_panel_model_picture(wire->model, &picture)) {
+        fprintf(stderr, "the panel shows nothing: %s\n", yb_panel_model_error(wire->model));
         return 1;
     }
-    write_pgm(argv[9], picture);
-    if (!few_enough_calls(&wire) || !same_as_file(argv[8], picture))
+    write_ppm(argv[9], &picture);
+    if (!few_enough_calls(wire) || !same_as_file(argv[8], &picture, turn))
         return 1;
     puts("the panel shows the frame, bit for bit");
     return 0;
+}
+
+int main(int argc, char **argv)
+{
+    static wire_t wire = {.level = {0, 0, 1, 0, 1}};
+    unsigned long turn = 0;
+    int first = 1;
+
+    if (first < argc && strcmp(argv[first], "--select-high") == 0) {
+        wire.selected = 1;
+        wire.level[CS] = 0;
+        first++;
+    }
+    if (first + 1 < argc && strcmp(argv[first], "--turn") == 0) {
+        turn = strtoul(argv[first + 1], NULL, 10);
+        first += 2;
+    }
+    if (argc - first != 10 || turn % 90 != 0 || turn > 270) {
+        fputs("check_wire [--select-high] [--turn 90|180|270] PANEL TRACING BASE SCK MOSI CS DC "
+              "RESET EXPECTED PICTURE\n",
+              stderr);
+        return 2;
+    }
+    wire.model = yb_panel_model_new(argv[first]);
+    if (wire.model == NULL) {
+        fprintf(stderr, "%s: there is no model of that panel\n", argv[first]);
+        return 2;
+    }
+    const int result = check(&wire, argv + first, (unsigned)turn);
+    yb_panel_model_free(wire.model);
+    return result;
 }

@@ -1,0 +1,100 @@
+/* Galaxycore GC9A01 with round IPS glasses, 240 x 240 pixels, of which the corners do not show.
+ *
+ * "Datasheet" is Galaxycore's GC9A01A, V1.0; its chapter 6 describes the commands, named below. It
+ * leaves out most of the commands of the inter-command set (6.3, opened by FEh and EFh); those are
+ * what all makers of these glasses send, and marked so.
+ */
+#include "mipi.h"
+
+enum {
+    SET_FUNCTIONS = 0xB6,
+    SET_VREG_1A = 0xC3,
+    SET_VREG_1B = 0xC4,
+    SET_VREG_2A = 0xC9,
+    SET_FRAME_RATE = 0xE8,
+    SET_GAMMA_1 = 0xF0,
+    SET_GAMMA_2 = 0xF1,
+    SET_GAMMA_3 = 0xF2,
+    SET_GAMMA_4 = 0xF3,
+    OPEN_1 = 0xFE,
+    OPEN_2 = 0xEF,
+};
+
+/* clang-format off */
+/* Each line: how many arguments, the command, the arguments. */
+static const uint8_t setup[] = {
+    /* Datasheet, "Inter Register Enable 1" and "2": opens the commands below. */
+    0, OPEN_1,
+    0, OPEN_2,
+    /* The makers': supplies and their clocks. */
+    1, 0xEB, 0x14,
+    1, 0x84, 0x40,
+    1, 0x85, 0xFF,
+    1, 0x86, 0xFF,
+    1, 0x87, 0xFF,
+    1, 0x88, 0x0A,
+    1, 0x89, 0x21,
+    1, 0x8A, 0x00,
+    1, 0x8B, 0x80,
+    1, 0x8C, 0x01,
+    1, 0x8D, 0x01,
+    1, 0x8E, 0xFF,
+    1, 0x8F, 0xFF,
+    /* "Display Function Control": sources run backwards, so the address mode need not. */
+    2, SET_FUNCTIONS, 0x00, 0x20,
+    /* "COLMOD": 16 bits a pixel. */
+    1, YB_MIPI_PIXEL_FORMAT, 0x55,
+    /* The makers'. */
+    4, 0x90, 0x08, 0x08, 0x08, 0x08,
+    1, 0xBD, 0x06,
+    1, 0xBC, 0x00,
+    3, 0xFF, 0x60, 0x01, 0x04,
+    /* "Vreg1a", "Vreg1b", "Vreg2a voltage control": what the grey levels span. */
+    1, SET_VREG_1A, 0x13,
+    1, SET_VREG_1B, 0x13,
+    1, SET_VREG_2A, 0x22,
+    /* The makers'. */
+    1, 0xBE, 0x11,
+    2, 0xE1, 0x10, 0x0E,
+    3, 0xDF, 0x21, 0x0C, 0x02,
+    /* "SET_GAMMA1" to "SET_GAMMA4". */
+    6, SET_GAMMA_1, 0x45, 0x09, 0x08, 0x08, 0x26, 0x2A,
+    6, SET_GAMMA_2, 0x43, 0x70, 0x72, 0x36, 0x37, 0x6F,
+    6, SET_GAMMA_3, 0x45, 0x09, 0x08, 0x08, 0x26, 0x2A,
+    6, SET_GAMMA_4, 0x43, 0x70, 0x72, 0x36, 0x37, 0x6F,
+    /* The makers': clocks of the supplies and of the gates. */
+    2, 0xED, 0x1B, 0x0B,
+    1, 0xAE, 0x77,
+    1, 0xCD, 0x63,
+    9, 0x70, 0x07, 0x07, 0x04, 0x0E, 0x0F, 0x09, 0x07, 0x08, 0x03,
+    /* "Frame Rate": columns change polarity in turn. */
+    1, SET_FRAME_RATE, 0x34,
+    /* The makers': timing of gates and sources. */
+    12, 0x62, 0x18, 0x0D, 0x71, 0xED, 0x70, 0x70, 0x18, 0x0F, 0x71, 0xEF, 0x70, 0x70,
+    12, 0x63, 0x18, 0x11, 0x71, 0xF1, 0x70, 0x70, 0x18, 0x13, 0x71, 0xF3, 0x70, 0x70,
+    7, 0x64, 0x28, 0x29, 0xF1, 0x01, 0xF1, 0x00, 0x07,
+    10, 0x66, 0x3C, 0x00, 0xCD, 0x67, 0x45, 0x45, 0x10, 0x00, 0x00, 0x00,
+    10, 0x67, 0x00, 0x3C, 0x00, 0x00, 0x00, 0x01, 0x54, 0x10, 0x32, 0x98,
+    7, 0x74, 0x10, 0x85, 0x80, 0x00, 0x00, 0x4E, 0x00,
+    2, 0x98, 0x3E, 0x07,
+};
+/* clang-format on */
+
+const yb_panel_t yb_panel_gc9a01 = {
+    .name = "gc9a01",
+    .title = "Galaxycore GC9A01, 240 x 240 round IPS TFT",
+    .driver = &yb_panel_mipi,
+    .screen = {.width = 240, .height = 240, .format = YB_RGB565},
+    /* Datasheet, "Display Serial Interface Timing Characteristics (4-line SPI system)": a write
+     * cycle takes 10 ns. */
+    .spi_hz = 100000000,
+    .ram_width = 240,
+    .ram_height = 240,
+    .flags = YB_PANEL_BGR | YB_PANEL_INVERTED,
+    .turns = YB_MIPI_TURNS,
+    .x_step = 1,
+    .y_step = 1,
+    .window_bytes = YB_MIPI_WINDOW_BYTES,
+    .setup = setup,
+    .setup_bytes = sizeof setup,
+};
