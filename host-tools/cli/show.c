@@ -301,7 +301,7 @@ static bool reach(scene_t *scene)
         return false;
     }
     scene->outlet = yb_outlet_open(play->panel, play->turn, yb_linux_bus_panel(scene->bus),
-                                   cli_play_band_rows(play));
+                                   cli_play_band_rows(play), NULL);
     if (scene->outlet == NULL)
         (void)cli_fail("out of memory");
     else if (start(scene))

@@ -271,6 +271,12 @@ static uint64_t bytes_sent(void *context)
     return yb_panel_model_bytes(scene->wires.model);
 }
 
+static uint64_t wires_ms(void *context)
+{
+    const scene_t *scene = context;
+    return scene->wires.nanoseconds / 1000000;
+}
+
 static bool set_up(const cli_play_t *play, yb_outlet_t *outlet)
 {
     return yb_outlet_start(outlet) &&
@@ -291,8 +297,9 @@ static void play_maps(scene_t *scene, char **maps, size_t count)
         return;
     }
     yb_player_t *player = cli_play_player(play, scene->list);
-    yb_outlet_t *outlet =
-        yb_outlet_open(play->panel, play->turn, &scene->wires.bus, cli_play_band_rows(play));
+    const yb_outlet_clock_t clock = {.now_ms = wires_ms, .context = scene};
+    yb_outlet_t *outlet = yb_outlet_open(play->panel, play->turn, &scene->wires.bus,
+                                         cli_play_band_rows(play), &clock);
     const cli_stage_t stage = {.context = scene,
                                .outlet = outlet,
                                .wait = wait_for,

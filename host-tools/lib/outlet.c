@@ -29,6 +29,8 @@ struct yb_outlet {
     unsigned drawn_bands, sent_bands; /* since it was opened; never more than BANDS apart */
     bool whole, failed, ends;
     bool ticks; /* the display has been started, and the bus is well */
+    uint64_t ticked_ms;
+    yb_outlet_clock_t clock;
 };
 
 static bool chip_can(const yb_panel_t *panel, yb_turn_t turn)
@@ -67,17 +69,34 @@ static bool send_band(yb_outlet_t *outlet, const band_t *band, bool whole)
     return send(&outlet->update, 0, yb_display_screen(&outlet->display).height, outlet->turned);
 }
 
-static struct timespec after_ms(uint32_t ms)
+static uint64_t real_ms(void *context)
 {
     struct timespec time;
+    (void)context;
     clock_gettime(CLOCK_MONOTONIC, &time);
-    time.tv_sec += (time_t)(ms / 1000);
-    time.tv_nsec += (long)(ms % 1000) * 1000000;
-    if (time.tv_nsec >= 1000000000) {
-        time.tv_nsec -= 1000000000;
-        time.tv_sec++;
+    return (uint64_t)time.tv_sec * 1000 + (uint64_t)time.tv_nsec / 1000000;
+}
+
+static struct timespec after_ms(uint32_t ms)
+{
+    const uint64_t due = real_ms(NULL) + ms;
+    return (struct timespec){.tv_sec = (time_t)(due / 1000),
+                             .tv_nsec = (long)(due % 1000) * 1000000};
+}
+
+/* With the mutex: what the panel must hear regularly, if it is time for it. */
+static void tick(yb_outlet_t *outlet)
+{
+    const uint32_t tick_ms = outlet->display.panel->tick_ms;
+    const uint64_t now_ms = outlet->clock.now_ms(outlet->clock.context);
+
+    if (!outlet->ticks || tick_ms == 0 || now_ms - outlet->ticked_ms < tick_ms)
+        return;
+    outlet->ticked_ms = now_ms;
+    if (!yb_display_tick(&outlet->display)) {
+        outlet->failed = true;
+        outlet->ticks = false;
     }
-    return time;
 }
 
 /* With the mutex: waits for a band or the end. */
@@ -85,16 +104,15 @@ static void wait_for_work(yb_outlet_t *outlet)
 {
     const uint32_t tick_ms = outlet->display.panel->tick_ms;
 
-    while (outlet->sent_bands == outlet->drawn_bands && !outlet->ends) {
+    for (;;) {
+        tick(outlet);
+        if (outlet->sent_bands != outlet->drawn_bands || outlet->ends)
+            return;
         if (tick_ms == 0 || !outlet->ticks) {
             pthread_cond_wait(&outlet->changed, &outlet->mutex);
-            continue;
-        }
-        const struct timespec due = after_ms(tick_ms);
-        if (pthread_cond_timedwait(&outlet->changed, &outlet->mutex, &due) != 0 && outlet->ticks &&
-            !yb_display_tick(&outlet->display)) {
-            outlet->failed = true;
-            outlet->ticks = false;
+        } else {
+            const struct timespec due = after_ms(tick_ms / 2);
+            pthread_cond_timedwait(&outlet->changed, &outlet->mutex, &due);
         }
     }
 }
@@ -171,7 +189,7 @@ static bool take_memory(yb_outlet_t *outlet, uint16_t band_rows)
 }
 
 yb_outlet_t *yb_outlet_open(const yb_panel_t *panel, yb_turn_t turn, const yb_panel_bus_t *bus,
-                            uint16_t band_rows)
+                            uint16_t band_rows, const yb_outlet_clock_t *clock)
 {
     yb_outlet_t *outlet = calloc(1, sizeof(*outlet));
     if (outlet == NULL)
@@ -181,6 +199,7 @@ yb_outlet_t *yb_outlet_open(const yb_panel_t *panel, yb_turn_t turn, const yb_pa
     outlet->display = (yb_display_t){
         .panel = panel, .bus = bus, .turn = outlet->turn == YB_TURN_0 ? turn : YB_TURN_0};
     outlet->update.display = &outlet->display;
+    outlet->clock = clock != NULL ? *clock : (yb_outlet_clock_t){.now_ms = real_ms};
     if (take_memory(outlet, band_rows) && begin(outlet))
         return outlet;
     free_memory(outlet);
@@ -193,6 +212,7 @@ bool yb_outlet_start(yb_outlet_t *outlet)
     outlet->failed = false;
     outlet->whole = true;
     outlet->ticks = yb_display_start(&outlet->display);
+    outlet->ticked_ms = outlet->clock.now_ms(outlet->clock.context);
     const bool good = outlet->ticks;
     pthread_cond_broadcast(&outlet->changed);
     pthread_mutex_unlock(&outlet->mutex);

@@ -1,7 +1,7 @@
 /* The outlet of a picture: a display, and a thread that sends what has been drawn while the next
  * band is drawn. Only what changed is sent; a turn that the panel's chip cannot do is done here.
  *
- *     yb_outlet_t *outlet = yb_outlet_open(panel, turn, bus, band_rows);
+ *     yb_outlet_t *outlet = yb_outlet_open(panel, turn, bus, band_rows, NULL);
  *     if (outlet == NULL || !yb_outlet_start(outlet)) …
  *     for each frame {
  *         for (y = 0; y < screen.height; y += rows) {
@@ -12,8 +12,8 @@
  *     }
  *     yb_outlet_close(outlet);
  *
- * Between yb_outlet_send and yb_outlet_finish the bus is the thread's. While nothing is sent the
- * thread does what the panel must hear regularly (yb_panel_t.tick_ms). One caller at a time.
+ * Between yb_outlet_send and yb_outlet_finish the bus is the thread's. The
+ * thread also does what the panel must hear regularly (yb_panel_t.tick_ms). One caller at a time.
  */
 #ifndef YB_OUTLET_H
 #define YB_OUTLET_H
@@ -28,9 +28,16 @@ yb_screen_t yb_outlet_screen(const yb_panel_t *panel, yb_turn_t turn);
 /* The fewest rows of a band, of which every band's height and place must be a multiple. */
 uint16_t yb_outlet_step(const yb_panel_t *panel, yb_turn_t turn);
 
-/* For bands of at most band_rows. The bus must live as long. NULL: no memory. */
+/* The time by which the panel must hear from us: of a model, say. Asked by the thread. */
+typedef struct {
+    uint64_t (*now_ms)(void *context);
+    void *context;
+} yb_outlet_clock_t;
+
+/* For bands of at most band_rows. The bus must live as long. A clock of NULL is the machine's.
+ * NULL: no memory. */
 yb_outlet_t *yb_outlet_open(const yb_panel_t *panel, yb_turn_t turn, const yb_panel_bus_t *bus,
-                            uint16_t band_rows);
+                            uint16_t band_rows, const yb_outlet_clock_t *clock);
 
 /* Starts the display: black and on. The next frame is sent whole. */
 bool yb_outlet_start(yb_outlet_t *outlet);
