@@ -8,16 +8,9 @@
 #include "cli.h"
 #include "view_options.h"
 
-/* A whole frame on the wires, its windows' commands included. */
-static unsigned long frame_bytes(const yb_panel_t *panel)
-{
-    return panel->window_bytes + (unsigned long)panel->screen.height *
-                                     (panel->row_bytes + yb_screen_pitch(&panel->screen));
-}
-
 static double frames_per_second(const yb_panel_t *panel)
 {
-    return panel->spi_hz / (8.0 * (double)frame_bytes(panel));
+    return panel->spi_hz / (8.0 * yb_panel_frame_bytes(panel));
 }
 
 static void print_line(const yb_panel_t *panel)
@@ -31,8 +24,8 @@ static void print_line(const yb_panel_t *panel)
                              used > 0 ? " " : "", 90 * turn);
     }
     printf("%-16s %-8s %-7s %-13s %7.2f %8lu %7.1f  %s\n", panel->name, size,
-           yb_format_names[panel->screen.format], turns, panel->spi_hz / 1e6, frame_bytes(panel),
-           frames_per_second(panel), panel->title);
+           yb_format_names[panel->screen.format], turns, panel->spi_hz / 1e6,
+           (unsigned long)yb_panel_frame_bytes(panel), frames_per_second(panel), panel->title);
 }
 
 static json_t *panel_json(const yb_panel_t *panel)
@@ -46,8 +39,8 @@ static json_t *panel_json(const yb_panel_t *panel)
                      "title", panel->title, "width", panel->screen.width, "height",
                      panel->screen.height, "format", yb_format_names[panel->screen.format],
                      "chip_turns", turns, "spi_hz", (json_int_t)panel->spi_hz, "frame_bytes",
-                     (json_int_t)frame_bytes(panel), "frames_per_second", frames_per_second(panel),
-                     "dc", (panel->flags & YB_PANEL_NO_DC) == 0);
+                     (json_int_t)yb_panel_frame_bytes(panel), "frames_per_second",
+                     frames_per_second(panel), "dc", (panel->flags & YB_PANEL_NO_DC) == 0);
 }
 
 int cli_info_panels(char **names, int count, bool json)

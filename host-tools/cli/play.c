@@ -159,19 +159,13 @@ static double seconds(void)
     return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-/* Pixels alone, without the windows' commands. */
-static double whole_bytes(const cli_play_t *play)
-{
-    return (double)(yb_screen_pitch(&play->view.screen) * play->view.screen.height);
-}
-
 static void tell_stats(const cli_play_t *play, cli_played_t *played, double now_s)
 {
     const long frames = played->frames - played->told_frames;
     const double bytes = (double)(played->bytes - played->told_bytes) / (double)frames;
     fprintf(stderr, "frame %ld: %.1f frames/s, %.0f bytes/frame, %.0f %% of whole frames\n",
             played->frames, (double)frames / (now_s - played->told_s), bytes,
-            100 * bytes / whole_bytes(play));
+            100 * bytes / yb_panel_frame_bytes(play->panel));
     played->told_frames = played->frames;
     played->told_bytes = played->bytes;
     played->told_s = now_s;
@@ -183,7 +177,7 @@ void cli_play_sum(const cli_play_t *play, const cli_played_t *played)
         return;
     const double bytes = (double)played->bytes / (double)played->frames;
     fprintf(stderr, "%ld frames, %.0f bytes/frame, %.0f %% of whole frames\n", played->frames,
-            bytes, 100 * bytes / whole_bytes(play));
+            bytes, 100 * bytes / yb_panel_frame_bytes(play->panel));
 }
 
 /* False: the bus failed. */

@@ -170,15 +170,23 @@ static bool fail(scene_t *scene, const char *why)
     return false;
 }
 
-/* What the panel shows, as somebody sees it who has turned it as --turn wants. */
+/* What the panel shows, as somebody sees it who has turned it as --turn wants; grey if it has no
+ * colours, so that the file is the very one that 'yamabiko render' writes. */
 static bool take_picture(scene_t *scene, yb_picture_t *picture)
 {
+    const bool grey = scene->wires.panel->screen.format != YB_RGB565;
     yb_model_picture_t glass;
+    yb_picture_t upright;
     if (!yb_panel_model_picture(scene->wires.model, &glass))
         return fail(scene, yb_panel_model_error(scene->wires.model));
-    const yb_picture_t unturned = {glass.width, glass.height, 3, (uint8_t *)(uintptr_t)glass.rgb};
-    return yb_picture_turn(picture, &unturned, 4 - (unsigned)scene->request->play.turn) ||
-           fail(scene, "out of memory");
+    if (!yb_picture_init(&upright, glass.width, glass.height, grey ? 1 : 3))
+        return fail(scene, "out of memory");
+    const size_t samples = (size_t)glass.width * glass.height * upright.channels;
+    for (size_t i = 0; i < samples; i++)
+        upright.samples[i] = glass.rgb[grey ? 3 * i : i];
+    const bool good = yb_picture_turn(picture, &upright, 4 - (unsigned)scene->request->play.turn);
+    yb_picture_free(&upright);
+    return good || fail(scene, "out of memory");
 }
 
 /* A frame is on the panel. */
@@ -241,7 +249,7 @@ static bool shown(void *context)
     if (!keep_picture(scene))
         return false;
     wait_for_bus(scene);
-    return yb_window_show(scene->window, scene->picture.samples) ||
+    return yb_window_show(scene->window, scene->picture.samples, scene->picture.channels == 1) ||
            fail(scene, "the desktop is gone");
 }
 

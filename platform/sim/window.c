@@ -3,6 +3,7 @@
 #include <SDL.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct yb_window {
     SDL_Window *window;
@@ -27,6 +28,21 @@ static bool draw(yb_window_t *window)
     return SDL_RenderClear(window->renderer) == 0 &&
            SDL_RenderCopy(window->renderer, window->texture, NULL, NULL) == 0 &&
            (SDL_RenderPresent(window->renderer), true);
+}
+
+/* SDL may take a video driver without a screen by itself, and nobody would see the window. */
+static bool has_desktop(void)
+{
+    const char *driver = NULL;
+
+    if (SDL_Init(SDL_INIT_VIDEO) != 0)
+        return false;
+    driver = SDL_GetCurrentVideoDriver();
+    if (getenv("SDL_VIDEODRIVER") != NULL ||
+        (driver != NULL && strcmp(driver, "offscreen") != 0 && strcmp(driver, "dummy") != 0))
+        return true;
+    SDL_SetError("there is no desktop");
+    return false;
 }
 
 static bool make(yb_window_t *window, const char *title, int scale, bool full_screen)
@@ -61,7 +77,7 @@ yb_window_t *yb_window_open(const char *title, int width, int height, int scale,
     }
     window->width = width;
     window->height = height;
-    if (SDL_Init(SDL_INIT_VIDEO) == 0 &&
+    if (has_desktop() &&
         make(window, title, scale > 0 ? scale : fitting_scale(width, height), full_screen))
         return window;
     snprintf(error, YB_WINDOW_ERROR_BYTES, "no window can be opened here: %s", SDL_GetError());
@@ -69,9 +85,21 @@ yb_window_t *yb_window_open(const char *title, int width, int height, int scale,
     return NULL;
 }
 
-bool yb_window_show(yb_window_t *window, const uint8_t *rgb)
+bool yb_window_show(yb_window_t *window, const uint8_t *samples, bool grey)
 {
-    return SDL_UpdateTexture(window->texture, NULL, rgb, 3 * window->width) == 0 && draw(window);
+    void *texture = NULL;
+    int pitch = 0;
+
+    if (SDL_LockTexture(window->texture, NULL, &texture, &pitch) != 0)
+        return false;
+    for (int y = 0; y < window->height; y++) {
+        uint8_t *row = (uint8_t *)texture + y * pitch;
+        for (int i = 0; i < 3 * window->width; i++)
+            row[i] = samples[grey ? i / 3 : i];
+        samples += (grey ? 1 : 3) * window->width;
+    }
+    SDL_UnlockTexture(window->texture);
+    return draw(window);
 }
 
 void yb_window_title(yb_window_t *window, const char *title)

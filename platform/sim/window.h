@@ -2,7 +2,7 @@
  * screen. For one thread, the program's first.
  *
  *     yb_window_t *window = yb_window_open("st7789", 240, 240, 0, false, error);
- *     yb_window_show(window, rgb);
+ *     yb_window_show(window, rgb, false);
  *     key = yb_window_wait(window, 40);
  *     yb_window_close(window);
  */
@@ -32,8 +32,9 @@ typedef struct yb_window yb_window_t;
 yb_window_t *yb_window_open(const char *title, int width, int height, int scale, bool full_screen,
                             char *error);
 
-/* Shows a picture: red, green, blue, a byte each, row by row. False if the desktop is gone. */
-bool yb_window_show(yb_window_t *window, const uint8_t *rgb);
+/* Shows a picture, row by row: a grey byte a pixel, or red, green and blue. False if the desktop is
+ * gone. */
+bool yb_window_show(yb_window_t *window, const uint8_t *samples, bool grey);
 
 void yb_window_title(yb_window_t *window, const char *title);
 
