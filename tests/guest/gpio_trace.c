@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Layout of a page and its records: Documentation/trace/ring-buffer-design.rst and
@@ -117,13 +118,30 @@ static bool take_page(const layout_t *layout, const uint8_t *page, yb_gpio_edge_
     return true;
 }
 
-bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
+/* What is there now. False: the trace is broken, or `edge` said so. */
+static bool read_pages(int file, const layout_t *layout, yb_gpio_edge_t edge, void *context)
 {
     uint8_t page[PAGE_BYTES];
+    ssize_t got;
+
+    while ((got = read(file, page, sizeof page)) > 0) {
+        if (got < PAGE_HEADER_BYTES || !take_page(layout, page, edge, context))
+            return false;
+    }
+    if (got < 0 && errno != EAGAIN) {
+        perror("the trace cannot be read");
+        return false;
+    }
+    return true;
+}
+
+bool yb_gpio_trace_follow(const char *tracing, const char *done, yb_gpio_edge_t edge, void *context)
+{
+    const struct timespec pause = {0, 50 * 1000000L};
     char path[256];
     layout_t layout = {0};
-    ssize_t got;
     bool well = true;
+    bool last = false;
 
     if (!read_layout(tracing, &layout))
         return false;
@@ -133,12 +151,17 @@ bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
         perror(path);
         return false;
     }
-    while (well && (got = read(file, page, sizeof page)) > 0)
-        well = got >= PAGE_HEADER_BYTES && take_page(&layout, page, edge, context);
-    if (well && got < 0 && errno != EAGAIN) {
-        perror(path);
-        well = false;
-    }
+    do {
+        last = done == NULL || access(done, F_OK) == 0;
+        well = read_pages(file, &layout, edge, context);
+        if (!last)
+            nanosleep(&pause, NULL);
+    } while (well && !last);
     close(file);
     return well;
+}
+
+bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
+{
+    return yb_gpio_trace_follow(tracing, NULL, edge, context);
 }
