@@ -1,4 +1,4 @@
-/* check_wire [--follow DONE] [--select-high] [--turn 90|180|270]
+/* check_wire [--follow PID] [--select-high] [--turn 90|180|270]
  *            PANEL TRACING BASE SCK MOSI CS DC RESET EXPECTED PICTURE
  *
  * Turns the trace of a panel's GPIO lines (numbers from BASE, "-" for one that is not wired) back
@@ -6,8 +6,8 @@
  * file EXPECTED: a PNG, or for displays of 16 greys two pixels a byte, high nibble left. EXPECTED
  * may be turned clockwise on the glass. PICTURE gets what the glass shows as PPM, to look at.
  * Anything that a display could take amiss is an error: data that move while the clock is high, a
- * byte cut short, bytes while the display is not selected. --follow reads the trace while it is
- * written, until the file DONE appears. */
+ * byte cut short, bytes while the display is not selected. --follow reads the trace while the
+ * process PID makes it, until that has ended. */
 #include "gpio_trace.h"
 #include "panel_model.h"
 
@@ -217,13 +217,13 @@ static long line_number(const char *base, const char *line)
     return strcmp(line, "-") == 0 ? -1 : strtol(base, NULL, 10) + strtol(line, NULL, 10);
 }
 
-static int check(wire_t *wire, char **argv, const char *done, unsigned turn)
+static int check(wire_t *wire, char **argv, long drawer, unsigned turn)
 {
     yb_model_picture_t picture;
 
     for (int line = 0; line < LINES; line++)
         wire->number[line] = line_number(argv[2], argv[3 + line]);
-    if (!yb_gpio_trace_follow(argv[1], done, line_set, wire)) {
+    if (!yb_gpio_trace_follow(argv[1], drawer, line_set, wire)) {
         fprintf(stderr, "after %lu bytes: %s\n", wire->bytes,
                 wire->wrong != NULL ? wire->wrong : "the trace ended");
         return 1;
@@ -248,12 +248,12 @@ static int check(wire_t *wire, char **argv, const char *done, unsigned turn)
 int main(int argc, char **argv)
 {
     static wire_t wire = {.level = {0, 0, 1, 0, 1}};
-    const char *done = NULL;
+    long drawer = 0;
     unsigned long turn = 0;
     int first = 1;
 
     if (first + 1 < argc && strcmp(argv[first], "--follow") == 0) {
-        done = argv[first + 1];
+        drawer = strtol(argv[first + 1], NULL, 10);
         first += 2;
     }
     if (first < argc && strcmp(argv[first], "--select-high") == 0) {
@@ -266,7 +266,7 @@ int main(int argc, char **argv)
         first += 2;
     }
     if (argc - first != 10 || turn % 90 != 0 || turn > 270) {
-        fputs("check_wire [--follow DONE] [--select-high] [--turn 90|180|270] PANEL TRACING BASE "
+        fputs("check_wire [--follow PID] [--select-high] [--turn 90|180|270] PANEL TRACING BASE "
               "SCK MOSI CS DC RESET EXPECTED PICTURE\n",
               stderr);
         return 2;
@@ -276,7 +276,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "%s: there is no model of that panel\n", argv[first]);
         return 2;
     }
-    const int result = check(&wire, argv + first, done, (unsigned)turn);
+    const int result = check(&wire, argv + first, drawer, (unsigned)turn);
     yb_panel_model_free(wire.model);
     return result;
 }

@@ -4,10 +4,12 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -135,13 +137,26 @@ static bool read_pages(int file, const layout_t *layout, yb_gpio_edge_t edge, vo
     return true;
 }
 
-bool yb_gpio_trace_follow(const char *tracing, const char *done, yb_gpio_edge_t edge, void *context)
+/* Stops a process while what it has left is read, so that it cannot fill the buffer meanwhile. */
+static bool read_of(pid_t drawer, int file, const layout_t *layout, yb_gpio_edge_t edge,
+                    void *context)
 {
-    const struct timespec pause = {0, 50 * 1000000L};
+    const struct timespec while_it_draws = {0, 30 * 1000000L};
+
+    while (kill(drawer, SIGSTOP) == 0) {
+        const bool well = read_pages(file, layout, edge, context);
+        kill(drawer, SIGCONT);
+        if (!well)
+            return false;
+        nanosleep(&while_it_draws, NULL);
+    }
+    return read_pages(file, layout, edge, context);
+}
+
+bool yb_gpio_trace_follow(const char *tracing, long drawer, yb_gpio_edge_t edge, void *context)
+{
     char path[256];
     layout_t layout = {0};
-    bool well = true;
-    bool last = false;
 
     if (!read_layout(tracing, &layout))
         return false;
@@ -151,17 +166,13 @@ bool yb_gpio_trace_follow(const char *tracing, const char *done, yb_gpio_edge_t 
         perror(path);
         return false;
     }
-    do {
-        last = done == NULL || access(done, F_OK) == 0;
-        well = read_pages(file, &layout, edge, context);
-        if (!last)
-            nanosleep(&pause, NULL);
-    } while (well && !last);
+    const bool well = drawer > 0 ? read_of((pid_t)drawer, file, &layout, edge, context)
+                                 : read_pages(file, &layout, edge, context);
     close(file);
     return well;
 }
 
 bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
 {
-    return yb_gpio_trace_follow(tracing, NULL, edge, context);
+    return yb_gpio_trace_follow(tracing, 0, edge, context);
 }
