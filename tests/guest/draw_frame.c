@@ -1,14 +1,19 @@
+#define _XOPEN_SOURCE 700 /* setitimer */
+
 /* draw_frame PANEL FRAME NAME=VALUE...
  *
  * Draws one frame of noise on a panel in bands, and then one window again, and leaves the frame in
  * the file FRAME, a PNG. How the panel is wired is told by the names of yb_linux_wiring_t: spi,
- * spi_hz, chip, sck, mosi, cs, dc, reset, backlight; and turn=90 turns it. */
+ * spi_hz, chip, sck, mosi, cs, dc, reset, backlight; and turn=90 turns it. Signals come all the
+ * time, as a program with timers or children has them. */
 #include "linux_bus.h"
 
 #include <png.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 
 enum {
     BAND_ROWS = 24, /* a multiple of every panel's step */
@@ -131,6 +136,20 @@ static bool draw(yb_display_t *display, uint8_t *frame)
     return draw_window(display, frame) && yb_display_finish(display);
 }
 
+static void tick(int number)
+{
+    (void)number;
+}
+
+static void have_signals(void)
+{
+    const struct sigaction action = {.sa_handler = tick}; /* no SA_RESTART */
+    const struct itimerval often = {{0, 2000}, {0, 2000}};
+
+    sigaction(SIGALRM, &action, NULL);
+    setitimer(ITIMER_REAL, &often, NULL);
+}
+
 static int run(const yb_linux_wiring_t *wiring, const yb_panel_t *panel, yb_turn_t turn,
                const char *path)
 {
@@ -153,6 +172,7 @@ static int run(const yb_linux_wiring_t *wiring, const yb_panel_t *panel, yb_turn
         fprintf(stderr, "draw_frame: %s\n", error);
         goto free_frame;
     }
+    have_signals();
     display.bus = yb_linux_bus_panel(bus);
     if (draw(&display, frame) && yb_linux_bus_backlight(bus, true))
         status = write_png(path, &screen, frame);
