@@ -78,9 +78,10 @@ static void reset_registers(yb_panel_model_t *model)
 static void reset(yb_panel_model_t *model)
 {
     chip_t *chip = model->chip;
+    const yb_mipi_glass_t *glass = glass_of(model);
 
     reset_registers(model);
-    yb_model_noise(model, chip->ram, sizeof chip->ram);
+    yb_model_noise(model, chip->ram, 2U * glass->ram_width * glass->ram_height);
 }
 
 static bool soft_reset(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
