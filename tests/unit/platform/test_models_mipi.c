@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -184,9 +185,11 @@ static void pauses_of_the_datasheet_are_enough(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(turns); i += 4) {
         yb_panel_model_t *model = new_model(turns[i].name);
-        play(model, (const int[]){W(5), 0x01, W(5), 0x11, W(5), 0x00, W(115), 0x10, W(5), 0x00,
-                                  W(115), 0x11, W(5), 0x01, W(120), 0x11, W(5), 0x29, END});
-        play(model, (const int[]){RESET, W(120), 0x11, W(5), 0x29, END});
+        const int settles = strncmp(turns[i].name, "st7735", 6) == 0 ? 120 : 5;
+        play(model, (const int[]){W(5), 0x01, W(settles), 0x11, W(settles), 0x00, W(120 - settles),
+                                  0x10, W(5), 0x00, W(115), 0x11, W(settles), 0x01, W(120), 0x11,
+                                  W(settles), 0x29, END});
+        play(model, (const int[]){RESET, W(120), 0x11, W(settles), 0x29, END});
         /* No pauses are asked for where there is no time. */
         play(model, (const int[]){RESET, 0x11, 0x29, 0x10, 0x11, 0x01, 0x11, END});
         yb_panel_model_free(model);
@@ -208,7 +211,10 @@ static void hostile_sequences_are_refused(void **state)
         {"st7789", "10h came 1000 us too soon after sleep-out", {W(5), 0x11, W(119), 0x10, END}},
         {"st7789", "36h came 1000 us", {W(5), 0x11, W(120), 0x10, W(4), 0x36, END}},
         {"st7789", "11h came 1000 us", {W(5), 0x11, W(120), 0x10, W(119), 0x11, END}},
-        {"st7735", "11h came 1000 us", {W(5), 0x11, W(120), 0x01, W(119), 0x11, END}},
+        {"st7789", "11h came 1000 us", {W(5), 0x11, W(120), 0x01, W(119), 0x11, END}},
+        {"st7735", "11h came 1000 us too soon after a reset", {W(5), 0x01, W(119), 0x11, END}},
+        {"st7735", "29h came 1000 us too soon after", {W(5), 0x11, W(119), 0x29, END}},
+        {"st7735", "29h came 1000 us too soon after", {W(5), 0x11, W(120), 0x10, W(4), 0x29, END}},
         {"st7735", "11h came 1000 us", {0x11, RESET, W(119), 0x11, END}},
     };
     static const wrong_t wrong[] = {
