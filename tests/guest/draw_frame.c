@@ -1,13 +1,19 @@
+#define _XOPEN_SOURCE 700 /* setitimer */
+
 /* draw_frame PANEL FRAME NAME=VALUE...
  *
  * Draws one frame of noise on a panel in bands, and then one window again, and leaves the frame in
- * the file FRAME, in the panel's own format. How the panel is wired is told by the names of
- * yb_linux_wiring_t: spi, spi_hz, chip, sck, mosi, cs, dc, reset, backlight. */
+ * the file FRAME, a PNG. How the panel is wired is told by the names of yb_linux_wiring_t: spi,
+ * spi_hz, chip, sck, mosi, cs, dc, reset, backlight; and turn=90 turns it. Signals come all the
+ * time, as a program with timers or children has them. */
 #include "linux_bus.h"
 
+#include <png.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 
 enum {
     BAND_ROWS = 24, /* a multiple of every panel's step */
@@ -38,15 +44,45 @@ static bool take_argument(yb_linux_wiring_t *wiring, const char *argument)
     return false;
 }
 
-static int write_frame(const char *path, const uint8_t *frame, size_t bytes)
+static unsigned spread(unsigned value, unsigned bits)
 {
-    FILE *file = fopen(path, "wb");
+    return value << (8 - bits) | value >> (2 * bits - 8);
+}
 
-    if (file == NULL || fwrite(frame, 1, bytes, file) != bytes || fclose(file) != 0) {
-        perror(path);
-        return 1;
+static void pixel_rgb(yb_format_t format, const uint8_t *row, unsigned x, uint8_t rgb[3])
+{
+    if (format == YB_RGB565) {
+        const unsigned value = (unsigned)row[2 * x] << 8 | row[2 * x + 1];
+        rgb[0] = (uint8_t)spread(value >> 11, 5);
+        rgb[1] = (uint8_t)spread(value >> 5 & 63, 6);
+        rgb[2] = (uint8_t)spread(value & 31, 5);
+        return;
     }
-    return 0;
+    const unsigned level = format == YB_GREY4 ? 17U * (row[x / 2] >> (x % 2 == 0 ? 4 : 0) & 15U)
+                                              : 255U * (row[x / 8] >> (7 - x % 8) & 1U);
+    memset(rgb, (int)level, 3);
+}
+
+static int write_png(const char *path, const yb_screen_t *screen, const uint8_t *frame)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION,
+                       .format = PNG_FORMAT_RGB,
+                       .width = screen->width,
+                       .height = screen->height};
+    uint8_t *rgb = malloc(PNG_IMAGE_SIZE(image));
+
+    if (rgb == NULL)
+        return 1;
+    for (size_t y = 0; y < screen->height; y++) {
+        for (unsigned x = 0; x < screen->width; x++)
+            pixel_rgb(screen->format, frame + y * yb_screen_pitch(screen), x,
+                      rgb + 3 * (y * screen->width + x));
+    }
+    const int written = png_image_write_to_file(&image, path, 0, rgb, 0, NULL);
+    if (!written)
+        fprintf(stderr, "%s: %s\n", path, image.message);
+    free(rgb);
+    return written ? 0 : 1;
 }
 
 static unsigned bits_of(yb_format_t format)
@@ -100,12 +136,59 @@ static bool draw(yb_display_t *display, uint8_t *frame)
     return draw_window(display, frame) && yb_display_finish(display);
 }
 
-int main(int argc, char **argv)
+static void tick(int number)
+{
+    (void)number;
+}
+
+static void have_signals(void)
+{
+    const struct sigaction action = {.sa_handler = tick}; /* no SA_RESTART */
+    const struct itimerval often = {{0, 2000}, {0, 2000}};
+
+    sigaction(SIGALRM, &action, NULL);
+    setitimer(ITIMER_REAL, &often, NULL);
+}
+
+static int run(const yb_linux_wiring_t *wiring, const yb_panel_t *panel, yb_turn_t turn,
+               const char *path)
 {
     char error[YB_LINUX_ERROR_BYTES];
-    yb_linux_wiring_t wiring = {.spi = NULL};
+    yb_display_t display = {.panel = panel, .turn = turn};
+    const yb_screen_t screen = yb_display_screen(&display);
+    const size_t bytes = yb_screen_pitch(&screen) * screen.height;
+    uint8_t *frame = malloc(bytes);
     uint32_t noise = 20;
     int status = 1;
+
+    if (frame == NULL)
+        return 1;
+    for (size_t i = 0; i < bytes; i++) {
+        noise = noise * 1664525U + 1013904223U;
+        frame[i] = (uint8_t)(noise >> 24);
+    }
+    yb_linux_bus_t *bus = yb_linux_bus_open(wiring, panel, error);
+    if (bus == NULL) {
+        fprintf(stderr, "draw_frame: %s\n", error);
+        goto free_frame;
+    }
+    have_signals();
+    display.bus = yb_linux_bus_panel(bus);
+    if (draw(&display, frame) && yb_linux_bus_backlight(bus, true))
+        status = write_png(path, &screen, frame);
+    else
+        fprintf(stderr, "draw_frame: %s\n", yb_linux_bus_error(bus));
+    printf("%s: %llu bytes sent\n", panel->name, (unsigned long long)yb_linux_bus_bytes(bus));
+    yb_linux_bus_close(bus);
+free_frame:
+    free(frame);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    yb_linux_wiring_t wiring = {.spi = NULL};
+    unsigned long turn = 0;
 
     if (argc < 3) {
         fputs("draw_frame PANEL FRAME NAME=VALUE...\n", stderr);
@@ -117,30 +200,10 @@ int main(int argc, char **argv)
         return 2;
     }
     for (int i = 3; i < argc; i++) {
-        if (!take_argument(&wiring, argv[i]))
+        if (strncmp(argv[i], "turn=", 5) == 0)
+            turn = strtoul(argv[i] + 5, NULL, 10);
+        else if (!take_argument(&wiring, argv[i]))
             return 2;
     }
-    const size_t bytes = yb_screen_pitch(&panel->screen) * panel->screen.height;
-    uint8_t *frame = malloc(bytes);
-    if (frame == NULL)
-        return 1;
-    for (size_t i = 0; i < bytes; i++) {
-        noise = noise * 1664525U + 1013904223U;
-        frame[i] = (uint8_t)(noise >> 24);
-    }
-    yb_linux_bus_t *bus = yb_linux_bus_open(&wiring, panel, error);
-    if (bus == NULL) {
-        fprintf(stderr, "draw_frame: %s\n", error);
-        goto free_frame;
-    }
-    yb_display_t display = {.panel = panel, .bus = yb_linux_bus_panel(bus)};
-    if (draw(&display, frame) && yb_linux_bus_backlight(bus, true))
-        status = write_frame(argv[2], frame, bytes);
-    else
-        fprintf(stderr, "draw_frame: %s\n", yb_linux_bus_error(bus));
-    printf("%s: %llu bytes sent\n", panel->name, (unsigned long long)yb_linux_bus_bytes(bus));
-    yb_linux_bus_close(bus);
-free_frame:
-    free(frame);
-    return status;
+    return run(&wiring, panel, (yb_turn_t)(turn / 90), argv[2]);
 }

@@ -122,25 +122,48 @@ static void presses_wait_until_read(void **state)
     assert_int_equal(seen[1], 1);
 }
 
-/* Down, and up 30 ms and more later, each with bounces: one press. */
+static uint64_t now_ms(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000 + (uint64_t)now.tv_nsec / 1000000;
+}
+
+/* Pulls the line to `level` with a bounce; false: the machine was too busy to do that within the
+ * time in which a contact bounces. */
+static bool bounce(unsigned line, int level)
+{
+    const uint64_t first = now_ms();
+    pull(line, level);
+    const uint64_t second = now_ms();
+    pull(line, !level);
+    const uint64_t third = now_ms();
+    pull(line, level);
+    return second - first < 20 && third - second < 20;
+}
+
+/* Down, and up some time later, each with bounces: one press. When exactly a press is one is tested
+ * in tests/unit, with times that do not depend on the machine. */
 static void bounces_are_no_presses(void **state)
 {
     (void)state;
-    for (int i = 0; i < 5; i++) {
-        pull(UP, 0);
-        pull(UP, 1);
+    for (int tries = 0; tries < 40; tries++) {
+        int presses = 0;
+        bool in_time = bounce(UP, 0);
+        rest();
+        in_time = bounce(UP, 1) && in_time;
+        rest();
+        assert_true(waits());
+        while (yb_linux_buttons_read(buttons) == 0)
+            presses++;
+        if (!in_time)
+            continue;
+        assert_int_equal(presses, 1);
+        return;
     }
-    pull(UP, 0);
-    assert_int_equal(yb_linux_buttons_read(buttons), 0);
-    assert_int_equal(yb_linux_buttons_read(buttons), -1);
-    rest();
-    for (int i = 0; i < 5; i++) {
-        pull(UP, 1);
-        pull(UP, 0);
-    }
-    pull(UP, 1);
-    assert_true(waits());
-    assert_int_equal(yb_linux_buttons_read(buttons), -1);
+    print_message("the machine was too busy to bounce\n");
+    skip();
 }
 
 /* A button that is down at the start is let go with bounces: no press. */
