@@ -205,7 +205,8 @@ static const yb_model_command_t gc9a01[] = {
 };
 /* clang-format on */
 
-/* 128 x 160, and two smaller glasses. */
+/* 128 x 160, and two smaller glasses. The pauses of "SWRESET" and "SLPOUT" are longer than in the
+ * other chips' datasheets. */
 const yb_mipi_glass_t yb_mipi_st7735 = {
     .ram_width = 132,
     .ram_height = 162,
@@ -213,6 +214,7 @@ const yb_mipi_glass_t yb_mipi_st7735 = {
     .x = 2,
     .y = 1,
     .bgr = true,
+    .settles_us = 120000,
     .more = TABLE(st7735),
 };
 
@@ -224,6 +226,7 @@ const yb_mipi_glass_t yb_mipi_st7735_80x160 = {
     .y = 1,
     .bgr = true,
     .inverted = true,
+    .settles_us = 120000,
     .more = TABLE(st7735),
 };
 
@@ -234,6 +237,7 @@ const yb_mipi_glass_t yb_mipi_st7735_128x128 = {
     .x = 2,
     .y = 3,
     .bgr = true,
+    .settles_us = 120000,
     .more = TABLE(st7735),
 };
 
@@ -241,6 +245,7 @@ const yb_mipi_glass_t yb_mipi_st7789 = {
     .ram_width = 240,
     .ram_height = 320,
     .inverted = true,
+    .settles_us = 5000,
     .more = TABLE(st7789),
 };
 
@@ -250,6 +255,7 @@ const yb_mipi_glass_t yb_mipi_st7789_135x240 = {
     .x = 52,
     .y = 40,
     .inverted = true,
+    .settles_us = 5000,
     .more = TABLE(st7789),
 };
 
@@ -258,6 +264,7 @@ const yb_mipi_glass_t yb_mipi_ili9341 = {
     .ram_height = 320,
     .upright = YB_MADCTL_MX,
     .bgr = true,
+    .settles_us = 5000,
     .more = TABLE(ili9341),
 };
 
@@ -270,5 +277,6 @@ const yb_mipi_glass_t yb_mipi_gc9a01 = {
     .inverted = true,
     .scan = YB_SCAN_SS,
     .scan_at_reset = YB_SCAN_UNKNOWN,
+    .settles_us = 5000,
     .more = TABLE(gc9a01),
 };

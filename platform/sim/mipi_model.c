@@ -10,8 +10,9 @@
 enum {
     MOST_PIXELS = 240 * 320,
 
-    /* "SWRESET", "SLPIN", "SLPOUT", "Reset Timing". */
+    /* "Reset Timing", "SLPIN": to the next command. */
     SETTLES_US = 5000,
+    /* "Reset Timing", "SLPIN", "SLPOUT": to sleep-out, if it was awake, or to sleep-in. */
     AWAKE_SETTLES_US = 120000,
 };
 
@@ -78,16 +79,20 @@ static void reset_registers(yb_panel_model_t *model)
 static void reset(yb_panel_model_t *model)
 {
     chip_t *chip = model->chip;
+    const yb_mipi_glass_t *glass = glass_of(model);
 
     reset_registers(model);
-    yb_model_noise(model, chip->ram, sizeof chip->ram);
+    yb_model_noise(model, chip->ram, 2U * glass->ram_width * glass->ram_height);
 }
 
 static bool soft_reset(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
 {
+    chip_t *chip = model->chip;
+
     (void)code;
     (void)args;
     reset_registers(model);
+    chip->command_at_us = model->now_us + glass_of(model)->settles_us;
     return true;
 }
 
@@ -99,7 +104,6 @@ static bool late_enough(yb_panel_model_t *model, uint8_t code, uint64_t at_us, c
                          (unsigned)(at_us - model->now_us), after);
 }
 
-/* "SLPIN": 5 ms to the next command, 120 ms from one of them to the other. */
 static bool sleep_in(yb_panel_model_t *model, uint8_t code, const uint8_t *args)
 {
     chip_t *chip = model->chip;
@@ -123,7 +127,7 @@ static bool sleep_out(yb_panel_model_t *model, uint8_t code, const uint8_t *args
     if (!late_enough(model, code, chip->sleep_out_at_us, "a reset or sleep-in"))
         return false;
     if (!chip->awake) {
-        chip->command_at_us = model->now_us + SETTLES_US;
+        chip->command_at_us = model->now_us + glass_of(model)->settles_us;
         chip->sleep_in_at_us = model->now_us + AWAKE_SETTLES_US;
     }
     chip->awake = true;

@@ -28,6 +28,7 @@ typedef struct {
      * reset. */
     uint8_t scan;
     uint8_t scan_at_reset;
+    uint32_t settles_us;   /* from a software reset or sleep-out to the next command */
     yb_model_table_t more; /* what the chip has beyond the commands of all chips */
 } yb_mipi_glass_t;
 

@@ -16,8 +16,8 @@
  *
  * Chip select is not a byte's affair but a panel's: tell it by yb_panel_model_select. Panels that
  * frame their bytes by it (Sharp's) take none without; the others count as selected until they are
- * told anything. A picture in mirror writing is shown as that where the chip might have a use for
- * it (address order by columns), and is an error where it cannot be meant. For PCs only.
+ * told anything. A mirrored picture is an error where the chip can turn by halves alone, and is
+ * shown as it is where the order of addresses may be meant to mirror it back. For PCs only.
  */
 #ifndef YB_PANEL_MODEL_H
 #define YB_PANEL_MODEL_H

@@ -60,7 +60,7 @@ static bool vcom_in_time(yb_panel_model_t *model)
 {
     const chip_t *chip = model->chip;
 
-    if (!model->timed || !chip->vcom_known || model->now_us - chip->vcom_since_us <= VCOM_US)
+    if (!chip->vcom_known || model->now_us - chip->vcom_since_us <= VCOM_US)
         return true;
     return yb_model_fail(model, "VCOM has kept its side for more than a second");
 }
