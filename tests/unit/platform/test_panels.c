@@ -355,10 +355,17 @@ static uint16_t random_stretch(uint16_t size, uint16_t step, uint16_t *from)
     return (uint16_t)(length * step);
 }
 
-static size_t row_bytes_of(const yb_screen_t *screen, uint16_t width)
+static size_t bits_of(const yb_screen_t *screen, uint16_t width)
 {
-    const yb_screen_t strip = {width, 1, screen->format};
-    return yb_screen_pitch(&strip);
+    return (size_t)width * (screen->format == YB_MONO ? 1 : screen->format == YB_GREY4 ? 4 : 16);
+}
+
+static void copy_bits(uint8_t *to, const uint8_t *from, size_t first, size_t count)
+{
+    for (size_t bit = first; bit < first + count; bit++) {
+        const uint8_t mask = (uint8_t)(0x80 >> bit % 8);
+        to[bit / 8] = (uint8_t)((to[bit / 8] & ~mask) | (from[bit / 8] & mask));
+    }
 }
 
 /* A window somewhere, out of the whole picture `pixels`. */
@@ -369,8 +376,7 @@ static yb_panel_window_t random_window(const yb_display_t *display, const uint8_
 
     window.width = random_stretch(screen.width, yb_display_x_step(display), &window.x);
     window.rows = random_stretch(screen.height, yb_display_y_step(display), &window.y);
-    window.pixels = pixels + window.y * window.pitch_bytes +
-                    (window.x > 0 ? row_bytes_of(&screen, window.x) : 0);
+    window.pixels = pixels + window.y * window.pitch_bytes + bits_of(&screen, window.x) / 8;
     return window;
 }
 
@@ -385,15 +391,16 @@ static void check_windows(wire_t *wire, yb_panel_bus_t *bus, yb_display_t *displ
     for (unsigned i = 0; i < 40; i++) {
         draw_noise(other, frame_bytes(display), i);
         const yb_panel_window_t window = random_window(display, other);
-        const size_t row_bytes = row_bytes_of(&screen, window.width);
+        const size_t row_bits = bits_of(&screen, window.width);
         const size_t before = wire->bytes;
         assert_true(yb_display_write(display, &window));
-        assert_int_equal(wire->bytes - before,
-                         panel->window_bytes + window.rows * (row_bytes + panel->row_bytes));
-        for (unsigned row = 0; row < window.rows; row++) {
-            const size_t at = (size_t)(window.pixels - other) + row * window.pitch_bytes;
-            memcpy(frame + at, other + at, row_bytes);
-        }
+        assert_int_equal(wire->bytes - before, panel->window_bytes +
+                                                   window.rows * panel->row_bytes +
+                                                   window.rows * row_bits / 8);
+        for (unsigned row = 0; row < window.rows; row++)
+            copy_bits(frame, other,
+                      8 * (window.y + row) * window.pitch_bytes + bits_of(&screen, window.x),
+                      row_bits);
         if (i % 8 == 0)
             assert_shown(wire, display, frame, 0);
     }
