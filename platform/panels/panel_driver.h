@@ -25,6 +25,12 @@ bool yb_panel_send_pixels(const yb_display_t *display, const yb_panel_window_t *
 /* So many bytes of 0 by the bus's `data`. */
 bool yb_panel_send_black(const yb_display_t *display, uint32_t bytes);
 
+/* A brightness of 0 to 255 as 0 to `rated`: both ends exact, and no division. */
+static inline uint8_t yb_panel_level(uint8_t level, uint8_t rated)
+{
+    return (uint8_t)(level * (rated + 1U) >> 8);
+}
+
 /* Waits where the port can. */
 void yb_panel_wait(const yb_display_t *display, uint32_t ms);
 

@@ -134,7 +134,7 @@ static bool ssd0323_invert(yb_display_t *display, bool inverted)
 
 static bool ssd0323_brightness(yb_display_t *display, uint8_t level)
 {
-    const uint8_t contrast = (uint8_t)(level * RATED_CONTRAST / 255);
+    const uint8_t contrast = yb_panel_level(level, RATED_CONTRAST);
     return yb_panel_send(display, SET_CONTRAST, &contrast, 1, false);
 }
 

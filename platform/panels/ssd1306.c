@@ -8,6 +8,8 @@
  */
 #include "panel_driver.h"
 
+#include <string.h>
+
 enum {
     WIDTH = 128,
     BLOCK = 8,
@@ -99,8 +101,8 @@ static bool ssd1306_start(yb_display_t *display)
     const yb_panel_t *panel = display->panel;
     /* Datasheet, "Set Segment Re-map", "Set COM Output Scan Direction": glasses are bonded upside
      * down, so the unturned picture runs backwards both ways. */
-    const uint8_t turn[2][2] = {{SET_SEGMENTS_BACKWARD, SET_ROWS_BACKWARD},
-                                {SET_SEGMENTS_FORWARD, SET_ROWS_FORWARD}};
+    static const uint8_t turn[2][2] = {{SET_SEGMENTS_BACKWARD, SET_ROWS_BACKWARD},
+                                       {SET_SEGMENTS_FORWARD, SET_ROWS_FORWARD}};
 
     /* Display RAM holds noise when the supply comes up, and is blackened before it can be seen. */
     return yb_panel_run(display, chip_setup, sizeof chip_setup, false) &&
@@ -112,15 +114,16 @@ static bool ssd1306_start(yb_display_t *display)
 }
 
 /* Turns a block over: eight rows, the leftmost pixel in the highest bit, into eight columns, the
- * top pixel in the lowest bit. Each row shifts its pixels in at the columns' tops, pushing down
- * bits of the rows before. */
+ * top pixel in the lowest bit. Each row shifts its pixels in at the columns' lower ends, pushing up
+ * those of the rows before. */
 static void turn_block_over(const uint8_t *rows, size_t pitch_bytes, uint8_t columns[BLOCK])
 {
-    for (uint8_t row = 0; row < BLOCK; row++) {
+    memset(columns, 0, BLOCK);
+    for (uint8_t left = BLOCK; left > 0; left--) {
         uint8_t pixels = *rows;
-        for (uint8_t column = 0; column < BLOCK; column++) {
-            columns[column] = (uint8_t)(columns[column] >> 1 | (pixels & 0x80));
-            pixels = (uint8_t)(pixels << 1);
+        for (uint8_t column = BLOCK; column-- > 0;) {
+            columns[column] = (uint8_t)(columns[column] >> 1 | (pixels << 7 & 0x80));
+            pixels >>= 1;
         }
         rows += pitch_bytes;
     }
@@ -151,8 +154,7 @@ static bool ssd1306_invert(yb_display_t *display, bool inverted)
 
 static bool ssd1306_brightness(yb_display_t *display, uint8_t level)
 {
-    const uint8_t rated = display->panel->setup[CONTRAST_AT];
-    const uint8_t contrast = (uint8_t)((uint16_t)(level * (uint16_t)rated) / 255);
+    const uint8_t contrast = yb_panel_level(level, display->panel->setup[CONTRAST_AT]);
     return yb_panel_send(display, SET_CONTRAST, &contrast, 1, false);
 }
 

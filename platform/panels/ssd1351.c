@@ -147,10 +147,8 @@ static bool ssd1351_invert(yb_display_t *display, bool inverted)
 
 static bool ssd1351_brightness(yb_display_t *display, uint8_t level)
 {
-    uint8_t contrast[] = {RATED_A, RATED_B, RATED_C};
-
-    for (uint8_t i = 0; i < sizeof contrast; i++)
-        contrast[i] = (uint8_t)((uint16_t)(level * (uint16_t)contrast[i]) / 255);
+    const uint8_t contrast[] = {yb_panel_level(level, RATED_A), yb_panel_level(level, RATED_B),
+                                yb_panel_level(level, RATED_C)};
     return yb_panel_send(display, SET_CONTRAST, contrast, sizeof contrast, true);
 }
 
