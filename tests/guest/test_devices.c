@@ -148,14 +148,17 @@ static void send(int device, const uint8_t *bytes, size_t count)
     assert_int_equal(ioctl(device, SPI_IOC_MESSAGE(1), &transfer), count);
 }
 
+/* A mode without SPI_CS_HIGH leaves chip select as the device tree has it. */
 static void assert_carries(const char *path, carried_t *carried)
 {
+    const uint8_t mode = SPI_MODE_0;
     static const uint8_t command[] = {0xDE};
     static const uint8_t data[] = {0xAD, 0xBE, 0xEF};
     static const unsigned expected[] = {0xDE, 0x1AD, 0x1BE, 0x1EF, 0xDE};
     const int device = open(path, O_RDWR);
     const int dc = request_line("GPIO25", GPIO_V2_LINE_FLAG_OUTPUT);
     assert_true(device >= 0);
+    assert_int_equal(ioctl(device, SPI_IOC_WR_MODE, &mode), 0);
     carried->base = chip_base();
 
     write_text(TRACING "events/gpio/gpio_value/enable", "1");
