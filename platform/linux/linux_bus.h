@@ -12,8 +12,9 @@
  *     yb_linux_bus_close(bus);
  *
  * A line is named by its number on the chip or by its name, as gpioinfo shows them. Bit by bit each
- * bit costs two system calls: it always works and is not fast. A bus is one thread's at a time.
- * Lines and device are held exclusively from open to close.
+ * bit costs two system calls: it always works and is not fast. A bus is one thread's at a time, and
+ * signals do not disturb it. Lines are held exclusively from open to close; a spidev device is kept
+ * from others who open it so.
  */
 #ifndef YB_LINUX_BUS_H
 #define YB_LINUX_BUS_H
@@ -28,9 +29,9 @@ typedef struct {
     const char *spi;  /* a spidev device; NULL: bit by bit on sck, mosi and cs */
     uint32_t spi_hz;  /* spidev's clock; 0: the panel's rated one */
     const char *chip; /* GPIO chip of the lines: name, number, path or label; NULL: gpiochip0 */
-    const char *sck;
+    const char *sck;  /* these three NULL with spidev, which has them itself */
     const char *mosi;
-    const char *cs;
+    const char *cs;        /* its active level is the panel's */
     const char *dc;        /* NULL for panels that have none */
     const char *reset;     /* NULL: not wired */
     const char *backlight; /* high is lit; NULL: not wired */
@@ -40,8 +41,9 @@ typedef struct yb_linux_bus yb_linux_bus_t;
 
 /* Takes lines and device, with the display not selected and its backlight off. NULL when that
  * failed, and then `error` (YB_LINUX_ERROR_BYTES) has one sentence that says why: no such chip,
- * line or device, a line that somebody holds and who, no permission and which group has it, mode or
- * clock refused, one line named twice, a line that the panel needs and that is not named. */
+ * line or device, a line that somebody holds and who, no permission and which group has it, mode,
+ * clock or level of the chip select refused, one line named twice, a line that the panel needs and
+ * that is not named, or one that it has not. */
 yb_linux_bus_t *yb_linux_bus_open(const yb_linux_wiring_t *wiring, const yb_panel_t *panel,
                                   char *error);
 

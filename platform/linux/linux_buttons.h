@@ -1,5 +1,6 @@
 /* Buttons on GPIO lines: to ground, with the pull-up that the line has (asked for where the kernel
- * can set it). A press is a falling edge, with its bounces left out.
+ * can set it). A press is a falling edge after 30 ms without any: what contacts do while they
+ * bounce, when they close and when they open, is none.
  *
  *     yb_linux_buttons_t *buttons = yb_linux_buttons_open("gpiochip0", lines, 2, why);
  *     poll yb_linux_buttons_fd(buttons) for POLLIN, then
@@ -23,7 +24,9 @@ typedef struct yb_linux_buttons yb_linux_buttons_t;
 yb_linux_buttons_t *yb_linux_buttons_open(const char *chip, const char *const *lines, size_t count,
                                           char *error);
 
-/* A descriptor that can be read, for poll, while presses wait. */
+/* A descriptor that can be read, for poll, while edges wait, of which some may be presses. Some
+ * kernels do not wake who waits for it when the chip goes away: look with `read` now and then.
+ */
 int yb_linux_buttons_fd(const yb_linux_buttons_t *buttons);
 
 /* The index of the next line that was pressed; -1: none waits; -2: the chip is gone. Does not wait.

@@ -62,7 +62,7 @@ static bool send_some(spidev_wire_t *spidev, const uint8_t *bytes, size_t count,
         sent = ioctl(spidev->fd, SPI_IOC_MESSAGE(1), &transfer);
     while (sent < 0 && errno == EINTR);
     if (sent < 0)
-        return yb_wire_failed(spidev->path, "sending", errno, error);
+        return yb_wire_failed(spidev->path, "a transfer", errno, error);
     if ((size_t)sent != count) {
         snprintf(error, YB_LINUX_ERROR_BYTES,
                  "the display could not be reached: %s sent %d of %zu bytes", spidev->path, sent,
