@@ -1,12 +1,13 @@
-/* check_wire [--select-high] [--turn 90|180|270] PANEL TRACING BASE SCK MOSI CS DC RESET EXPECTED
- *            PICTURE
+/* check_wire [--follow PID] [--select-high] [--turn 90|180|270]
+ *            PANEL TRACING BASE SCK MOSI CS DC RESET EXPECTED PICTURE
  *
  * Turns the trace of a panel's GPIO lines (numbers from BASE, "-" for one that is not wired) back
  * into bytes with their D/C, hands them to the model of PANEL, and compares its picture with the
  * file EXPECTED: a PNG, or for displays of 16 greys two pixels a byte, high nibble left. EXPECTED
  * may be turned clockwise on the glass. PICTURE gets what the glass shows as PPM, to look at.
  * Anything that a display could take amiss is an error: data that move while the clock is high, a
- * byte cut short, bytes while the display is not selected. */
+ * byte cut short, bytes while the display is not selected. --follow reads the trace while the
+ * process PID makes it, until that has ended. */
 #include "gpio_trace.h"
 #include "panel_model.h"
 
@@ -216,13 +217,13 @@ static long line_number(const char *base, const char *line)
     return strcmp(line, "-") == 0 ? -1 : strtol(base, NULL, 10) + strtol(line, NULL, 10);
 }
 
-static int check(wire_t *wire, char **argv, unsigned turn)
+static int check(wire_t *wire, char **argv, long drawer, unsigned turn)
 {
     yb_model_picture_t picture;
 
     for (int line = 0; line < LINES; line++)
         wire->number[line] = line_number(argv[2], argv[3 + line]);
-    if (!yb_gpio_trace_read(argv[1], line_set, wire)) {
+    if (!yb_gpio_trace_follow(argv[1], drawer, line_set, wire)) {
         fprintf(stderr, "after %lu bytes: %s\n", wire->bytes,
                 wire->wrong != NULL ? wire->wrong : "the trace ended");
         return 1;
@@ -247,9 +248,14 @@ static int check(wire_t *wire, char **argv, unsigned turn)
 int main(int argc, char **argv)
 {
     static wire_t wire = {.level = {0, 0, 1, 0, 1}};
+    long drawer = 0;
     unsigned long turn = 0;
     int first = 1;
 
+    if (first + 1 < argc && strcmp(argv[first], "--follow") == 0) {
+        drawer = strtol(argv[first + 1], NULL, 10);
+        first += 2;
+    }
     if (first < argc && strcmp(argv[first], "--select-high") == 0) {
         wire.selected = 1;
         wire.level[CS] = 0;
@@ -260,8 +266,8 @@ int main(int argc, char **argv)
         first += 2;
     }
     if (argc - first != 10 || turn % 90 != 0 || turn > 270) {
-        fputs("check_wire [--select-high] [--turn 90|180|270] PANEL TRACING BASE SCK MOSI CS DC "
-              "RESET EXPECTED PICTURE\n",
+        fputs("check_wire [--follow PID] [--select-high] [--turn 90|180|270] PANEL TRACING BASE "
+              "SCK MOSI CS DC RESET EXPECTED PICTURE\n",
               stderr);
         return 2;
     }
@@ -270,7 +276,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "%s: there is no model of that panel\n", argv[first]);
         return 2;
     }
-    const int result = check(&wire, argv + first, (unsigned)turn);
+    const int result = check(&wire, argv + first, drawer, (unsigned)turn);
     yb_panel_model_free(wire.model);
     return result;
 }

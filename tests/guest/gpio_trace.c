@@ -4,10 +4,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Layout of a page and its records: Documentation/trace/ring-buffer-design.rst and
@@ -117,13 +120,43 @@ static bool take_page(const layout_t *layout, const uint8_t *page, yb_gpio_edge_
     return true;
 }
 
-bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
+/* What is there now. False: the trace is broken, or `edge` said so. */
+static bool read_pages(int file, const layout_t *layout, yb_gpio_edge_t edge, void *context)
 {
     uint8_t page[PAGE_BYTES];
+    ssize_t got;
+
+    while ((got = read(file, page, sizeof page)) > 0) {
+        if (got < PAGE_HEADER_BYTES || !take_page(layout, page, edge, context))
+            return false;
+    }
+    if (got < 0 && errno != EAGAIN) {
+        perror("the trace cannot be read");
+        return false;
+    }
+    return true;
+}
+
+/* Stops a process while what it has left is read, so that it cannot fill the buffer meanwhile. */
+static bool read_of(pid_t drawer, int file, const layout_t *layout, yb_gpio_edge_t edge,
+                    void *context)
+{
+    const struct timespec while_it_draws = {0, 30 * 1000000L};
+
+    while (kill(drawer, SIGSTOP) == 0) {
+        const bool well = read_pages(file, layout, edge, context);
+        kill(drawer, SIGCONT);
+        if (!well)
+            return false;
+        nanosleep(&while_it_draws, NULL);
+    }
+    return read_pages(file, layout, edge, context);
+}
+
+bool yb_gpio_trace_follow(const char *tracing, long drawer, yb_gpio_edge_t edge, void *context)
+{
     char path[256];
     layout_t layout = {0};
-    ssize_t got;
-    bool well = true;
 
     if (!read_layout(tracing, &layout))
         return false;
@@ -133,12 +166,13 @@ bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
         perror(path);
         return false;
     }
-    while (well && (got = read(file, page, sizeof page)) > 0)
-        well = got >= PAGE_HEADER_BYTES && take_page(&layout, page, edge, context);
-    if (well && got < 0 && errno != EAGAIN) {
-        perror(path);
-        well = false;
-    }
+    const bool well = drawer > 0 ? read_of((pid_t)drawer, file, &layout, edge, context)
+                                 : read_pages(file, &layout, edge, context);
     close(file);
     return well;
+}
+
+bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context)
+{
+    return yb_gpio_trace_follow(tracing, 0, edge, context);
 }

@@ -12,4 +12,8 @@ typedef bool (*yb_gpio_edge_t)(void *context, unsigned line, int value);
  * with a sentence on stderr, when it cannot be read or events were lost. */
 bool yb_gpio_trace_read(const char *tracing, yb_gpio_edge_t edge, void *context);
 
+/* The same while the process `drawer` makes it, until that has ended: for more than the trace's
+ * buffer holds. The process is stopped and continued all the time, wherever it just is. */
+bool yb_gpio_trace_follow(const char *tracing, long drawer, yb_gpio_edge_t edge, void *context);
+
 #endif

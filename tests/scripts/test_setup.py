@@ -23,6 +23,7 @@ class Setup(unittest.TestCase):
         (self.top / "scripts").mkdir()
         self.bin.mkdir()
         shutil.copy(ROOT / "scripts/setup", self.top / "scripts/setup")
+        self.backports()
         for name in REAL:
             (self.bin / name).symlink_to(shutil.which(name))
         self.debian()
@@ -36,6 +37,11 @@ class Setup(unittest.TestCase):
         path = self.bin / name
         path.unlink(missing_ok=True)
         path.write_text(f"#!{shutil.which('bash')}\n{body}\n")
+        path.chmod(0o755)
+
+    def backports(self, body=""):
+        path = self.top / "scripts/backports"
+        path.write_text(f"#!{shutil.which('bash')}\necho asked >>\"$BACKPORTS\"\n{body}\n")
         path.chmod(0o755)
 
     def debian(self, text="ID=debian\nVERSION_ID=\"12\"\n"):
@@ -62,12 +68,15 @@ class Setup(unittest.TestCase):
     def run_setup(self, *arguments):
         calls = self.top / "calls"
         calls.unlink(missing_ok=True)
+        backports = self.top / "backports"
+        backports.unlink(missing_ok=True)
         result = subprocess.run(
             [str(self.top / "scripts/setup"), *arguments], capture_output=True, text=True,
             stdin=subprocess.DEVNULL, check=False, cwd="/",
-            env={"PATH": str(self.bin), "CALLS": str(calls),
+            env={"PATH": str(self.bin), "CALLS": str(calls), "BACKPORTS": str(backports),
                  "YB_OS_RELEASE": str(self.top / "os-release")})
         self.calls = calls.read_text().splitlines() if calls.exists() else []
+        self.backports_asked = backports.exists()
         self.assertEqual(result.stdout, "")
         return result
 
@@ -99,6 +108,19 @@ class Setup(unittest.TestCase):
         self.installed(all_but=("cmake", "flex", "clang", "shellcheck"))
         self.assertEqual(self.run_setup("--demo").returncode, 0)
         self.assertTrue(self.calls[1].endswith("recommends cmake"), self.calls)
+
+    def test_backports_are_for_the_guest_tests(self):
+        for argument, machine, asked in (("--all", "x86_64", True), ("--demo", "x86_64", False),
+                                         ("--bench", "x86_64", False), ("--all", "aarch64", False)):
+            self.machine(machine)
+            self.assertEqual(self.run_setup(argument).returncode, 0)
+            self.assertEqual(self.backports_asked, asked, (argument, machine))
+
+    def test_missing_backports_are_no_failure(self):
+        self.backports("echo 'no backports here' >&2; exit 77")
+        result = self.run_setup()
+        self.assertEqual((result.returncode, self.calls), (0, []))
+        self.assertEqual(result.stderr, "no backports here\n")
 
     def test_stale_lists_may_do(self):
         self.installed(all_but=("flex",))
@@ -147,7 +169,8 @@ class Setup(unittest.TestCase):
         for name in ("gcc make cmake ninja pkg-config arm-none-eabi-gcc qemu-system-arm "
                      "riscv64-unknown-elf-gcc avr-gcc qemu-system-avr powerpc-linux-gnu-gcc qemu-ppc "
                      "python3 clang llvm-symbolizer g++ clang-format clang-tidy cppcheck "
-                     "shellcheck man groff flex bison bc perl xz").split():
+                     "shellcheck man groff flex bison bc perl xz dtc "
+                     "qemu-system-x86_64").split():
             self.command(name, "")
         result = self.run_setup()
         self.assertEqual((result.returncode, self.calls), (0, []))
