@@ -25,7 +25,8 @@ const char cli_play_help[] =
     "  --invert            light for dark\n"
     "  --whole             send every frame whole, not only what changed\n"
     "  --stats             tell every second on the standard error how many frames a second and\n"
-    "                      bytes a frame there were, and the sum at the end\n"
+    "                      bytes a frame there were, and in the end the sum on the standard "
+    "output\n"
     "  --config FILE       options from an INI file, one a line: 'panel = st7789', 'orbit = yes',\n"
     "                      'sun = 315 30', 'map = fuji.yb'; those of the command line go first\n";
 
@@ -176,8 +177,8 @@ void cli_play_sum(const cli_play_t *play, const cli_played_t *played)
     if (!play->stats || played->frames == 0)
         return;
     const double bytes = (double)played->bytes / (double)played->frames;
-    fprintf(stderr, "%ld frames, %.0f bytes/frame, %.0f %% of whole frames\n", played->frames,
-            bytes, 100 * bytes / yb_panel_frame_bytes(play->panel));
+    printf("%ld frames, %.0f bytes/frame, %.0f %% of whole frames\n", played->frames, bytes,
+           100 * bytes / yb_panel_frame_bytes(play->panel));
 }
 
 /* False: the bus failed. */

@@ -30,6 +30,7 @@ enum {
     OPTION_BACKLIGHT,
     OPTION_BUTTON,
     OPTION_RETRY,
+    OPTION_KEEP,
     OPTION_ONCE,
     OPTION_HELP,
 
@@ -48,6 +49,7 @@ static const struct option options[] = {{"bus", required_argument, NULL, OPTION_
                                         {"backlight", required_argument, NULL, OPTION_BACKLIGHT},
                                         {"button", required_argument, NULL, OPTION_BUTTON},
                                         {"retry", no_argument, NULL, OPTION_RETRY},
+                                        {"keep", no_argument, NULL, OPTION_KEEP},
                                         {"once", no_argument, NULL, OPTION_ONCE},
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         CLI_PLAY_LONG_OPTIONS,
@@ -61,7 +63,7 @@ typedef struct {
     char *lines[YB_LINUX_BUTTONS_MAX]; /* of buttons */
     yb_act_t acts[YB_LINUX_BUTTONS_MAX];
     size_t buttons;
-    bool retry, once, help;
+    bool retry, keep, once, help;
 } request_t;
 
 /* The panel while it is reached, and what else is waited for. */
@@ -202,8 +204,11 @@ static int take(request_t *request, int answer, int argc, char **argv)
     case OPTION_RETRY:
         request->retry = true;
         return CLI_OK;
+    case OPTION_KEEP:
+        request->keep = true;
+        return CLI_OK;
     case OPTION_ONCE:
-        request->once = true;
+        request->once = request->keep = true;
         return CLI_OK;
     case OPTION_HELP:
         request->help = true;
@@ -379,7 +384,7 @@ static int play_on(scene_t *scene, yb_player_t *player)
             end = cli_play_run(&request->play, &stage, player, &played);
             if (end == CLI_PLAY_BUS_LOST)
                 (void)cli_fail("%s", yb_linux_bus_error(scene->bus));
-            leave(scene, end == CLI_PLAY_DONE && !request->once);
+            leave(scene, end == CLI_PLAY_DONE && !request->keep);
         }
         if (end == CLI_PLAY_DONE)
             break;
