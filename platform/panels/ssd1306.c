@@ -45,8 +45,8 @@ enum {
 static const uint8_t chip_setup[] = {
     /* Datasheet, "Set Display ON/OFF": nothing is shown while the registers change. */
     0, SET_DISPLAY_OFF,
-    /* "Set Display Clock Divide Ratio / Oscillator Frequency": fastest, undivided: with 54 clocks a
-     * row, over 100 frames a second, so nothing flickers in motion. */
+    /* "Set Display Clock Divide Ratio / Oscillator Frequency": fastest, undivided: with the 66 clocks
+     * a row of the precharge below, about 100 frames a second, so nothing flickers in motion. */
     1, SET_CLOCK, 0xF0,
     /* "Set Display Offset", "Set Display Start Line", "Deactivate Scroll": row 0 on top, at rest. */
     1, SET_OFFSET, 0,
