@@ -369,6 +369,15 @@ static void copy_bits(uint8_t *to, const uint8_t *from, size_t first, size_t cou
     }
 }
 
+static void copy_window(const yb_screen_t *screen, const yb_panel_window_t *window, uint8_t *to,
+                        const uint8_t *from)
+{
+    for (unsigned row = 0; row < window->rows; row++)
+        copy_bits(to, from,
+                  8 * (window->y + row) * window->pitch_bytes + bits_of(screen, window->x),
+                  bits_of(screen, window->width));
+}
+
 /* A window somewhere, out of the whole picture `pixels`. */
 static yb_panel_window_t random_window(const yb_display_t *display, const uint8_t *pixels)
 {
@@ -396,12 +405,9 @@ static void check_windows(wire_t *wire, yb_panel_bus_t *bus, yb_display_t *displ
         const size_t before = wire->bytes;
         assert_true(yb_display_write(display, &window));
         assert_int_equal(wire->bytes - before, panel->window_bytes +
-                                                   window.rows * panel->row_bytes +
+                                                   (size_t)window.rows * panel->row_bytes +
                                                    window.rows * row_bits / 8);
-        for (unsigned row = 0; row < window.rows; row++)
-            copy_bits(frame, other,
-                      8 * (window.y + row) * window.pitch_bytes + bits_of(&screen, window.x),
-                      row_bits);
+        copy_window(&screen, &window, frame, other);
         if (i % 8 == 0)
             assert_shown(wire, display, frame, 0);
     }
@@ -643,10 +649,7 @@ static void check_late(wire_t *wire, yb_panel_bus_t *bus, yb_display_t *display)
     assert_true(yb_display_write(display, &window));
     assert_true(yb_display_invert(display, true) && yb_display_invert(display, false) &&
                 yb_display_finish(display));
-    for (unsigned row = 0; row < window.rows; row++) {
-        const size_t at = (size_t)(window.pixels - other) + row * window.pitch_bytes;
-        memcpy(frame + at, other + at, row_bytes_of(&screen, window.width));
-    }
+    copy_window(&screen, &window, frame, other);
     memset(other, POISON, sizeof other);
     assert_shown(wire, display, frame, 0);
 }
@@ -700,7 +703,8 @@ static void descriptions_fit_together(void **state)
         assert_true(panel->ram_y + panel->screen.height <= panel->ram_height);
         assert_int_equal(panel->screen.width % panel->x_step, 0);
         assert_int_equal(panel->screen.height % panel->y_step, 0);
-        assert_true(row_bytes_of(&panel->screen, panel->x_step) > 0);
+        assert_true(panel->x_step > 0 &&
+                    bits_of(&panel->screen, panel->x_step) * panel->y_step % 8 == 0);
         assert_true(panel->spi_hz >= 1000000);
         size_t at = 0;
         while (at < panel->setup_bytes) {
