@@ -42,14 +42,16 @@ static char *long_option(const char *name, const char *value)
 }
 
 /* Options of several numbers take them as words of their own. */
-static bool add_words(cli_config_t *config, const char *name, const char *value)
+static bool add_words(cli_config_t *config, const char *name, const char *value, int *count)
 {
     char *words = strdup(value), *rest = NULL;
     bool good = words != NULL;
     const char *word = good ? strtok_r(words, " \t", &rest) : NULL;
     good = good && add(config, long_option(name, word != NULL ? word : ""));
-    while (good && word != NULL && (word = strtok_r(NULL, " \t", &rest)) != NULL)
-        good = add(config, strdup(word));
+    for (*count = 0; good && word != NULL; ++*count) {
+        word = strtok_r(NULL, " \t", &rest);
+        good = word == NULL || add(config, strdup(word));
+    }
     free(words);
     return good;
 }
@@ -76,8 +78,13 @@ static bool take(reader_t *reader, const struct option *option, const char *valu
         return true;
     if (option->has_arg != required_argument && yes)
         return add(config, long_option(option->name, NULL));
-    return yb_view_options_values(option->val) > 1 ? add_words(config, option->name, value)
-                                                   : add(config, long_option(option->name, value));
+    const int values = yb_view_options_values(option->val);
+    int count = 0;
+    if (values == 1)
+        return add(config, long_option(option->name, value));
+    return add_words(config, option->name, value, &count) &&
+           (count == values ||
+            refuse(reader, option->name, values == 2 ? "needs 2 values" : "needs 3 values"));
 }
 
 static int on_line(void *user, const char *section, const char *key, const char *value)
