@@ -24,7 +24,8 @@ static const verb_t verbs[] = {
     {"contours", cli_contours, "write contour lines of its surface"},
     {"mesh", cli_mesh, "write its triangles"},
     {"evaluate", cli_evaluate, "compare it with the real relief"},
-    {"show", cli_show, "draw it on a real panel"},
+    {"show", cli_show, "show maps on a real panel"},
+    {"sim", cli_sim, "show them in a window, as a panel or the handheld would"},
     {"ping", cli_ping, "look for a device"},
 };
 enum {
@@ -91,7 +92,8 @@ static void help(void)
     for (int i = 0; i < VERBS; i++)
         printf("  %-10s %s\n", verbs[i].name, verbs[i].what);
     puts("\n'yamabiko VERB --help' tells a verb's options, 'man yamabiko' the whole.\n"
-         "Exit codes: 0 done, 1 failed (one sentence says why), 2 wrong usage.");
+         "Exit codes: 0 done, 1 failed (one sentence says why), 2 wrong usage,\n3 a panel cannot "
+         "be reached.");
 }
 
 int main(int argc, char **argv)

@@ -8,7 +8,8 @@
 enum {
     CLI_OK = 0,
     CLI_FAILED = 1,
-    CLI_USAGE = 2
+    CLI_USAGE = 2,
+    CLI_UNREACHED = 3 /* a panel could not be reached, or no more */
 };
 
 /* One verb: argv[0] is the verb itself, for getopt_long. */
@@ -22,6 +23,7 @@ int cli_contours(int argc, char **argv);
 int cli_mesh(int argc, char **argv);
 int cli_evaluate(int argc, char **argv);
 int cli_show(int argc, char **argv);
+int cli_sim(int argc, char **argv);
 int cli_ping(int argc, char **argv);
 
 /* Print one sentence on stderr, "yamabiko VERB: …", and return CLI_FAILED or CLI_USAGE. */

@@ -11,15 +11,18 @@
 #include "code_file.h"
 #include "compact_code.h"
 #include "contour_code.h"
+#include "info_panel.h"
 #include "part.h"
 
 enum {
     OPTION_JSON = 256,
+    OPTION_PANEL,
     OPTION_HELP,
     HEADER_BITS = 14 * 8
 };
 
 static const struct option options[] = {{"json", no_argument, NULL, OPTION_JSON},
+                                        {"panel", no_argument, NULL, OPTION_PANEL},
                                         CLI_PART_LONG_OPTIONS,
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         {0}};
@@ -60,6 +63,7 @@ static int help(void)
 {
     fputs(
         "Usage: yamabiko info MAP.yb [OPTION ...]\n"
+        "       yamabiko info --panel [NAME ...] [--json]\n"
         "\n"
         "Says what is in a code: size and scale of the map, its contours and how they lie in\n"
         "each other, the mesh that the engine makes of them, where each bit went; its name, its\n"
@@ -79,6 +83,9 @@ static int help(void)
         "For a code of contour lines or of a sheet they hold against the surface that was laid\n"
         "through the lines.\n"
         "\n"
+        "  --panel             instead of a map: the panels that there are, or those named; their\n"
+        "                      size and pixels, the turns that their chip does, the fastest clock\n"
+        "                      that it is rated for, and what that makes of whole frames\n"
         "  --json              the same for machines\n"
         "  --help              this text\n"
         "\n",
@@ -500,7 +507,7 @@ static int print_json(const info_t *info)
 
 int cli_info(int argc, char **argv)
 {
-    bool json = false;
+    bool json = false, panels = false;
     cli_part_t part = {0};
     int answer = 0;
     int status = CLI_OK;
@@ -511,12 +518,16 @@ int cli_info(int argc, char **argv)
             status = cli_part_take(&part, answer, argc, argv);
         else if (answer == OPTION_JSON)
             json = true;
+        else if (answer == OPTION_PANEL)
+            panels = true;
         else
             status = cli_bad_option(answer, argc, argv);
     }
     status = status == CLI_OK ? cli_part_check(&part) : status;
     if (status != CLI_OK)
         return status;
+    if (panels)
+        return cli_info_panels(argv + optind, argc - optind, json);
     if (argc - optind != 1)
         return cli_usage(argc == optind ? "name the map" : "more than one map");
     yb_code_file_t *file = cli_part_read_map(&part, argv[optind]);

@@ -10,6 +10,7 @@
 
 #include "code_file.h"
 #include "numbered.h"
+#include "outlet.h"
 #include "output.h"
 #include "part.h"
 #include "picture.h"
@@ -18,6 +19,7 @@
 
 enum {
     OPTION_PANEL = 256,
+    OPTION_TURN,
     OPTION_ORBIT,
     OPTION_JSON,
     OPTION_FORCE,
@@ -26,6 +28,7 @@ enum {
 
 static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                         {"panel", required_argument, NULL, OPTION_PANEL},
+                                        {"turn", required_argument, NULL, OPTION_TURN},
                                         {"orbit", required_argument, NULL, OPTION_ORBIT},
                                         {"json", no_argument, NULL, OPTION_JSON},
                                         {"force", no_argument, NULL, OPTION_FORCE},
@@ -38,6 +41,7 @@ typedef struct {
     const char *input, *output;
     cli_part_t part;
     const yb_panel_t *panel;
+    long turn_deg;
     long orbit;
     bool json, force, help;
     yb_view_options_t view;
@@ -45,26 +49,29 @@ typedef struct {
 
 static void help(void)
 {
-    fputs("Usage: yamabiko render MAP.yb -o OUT.png [OPTION ...]\n"
-          "\n"
-          "Draws a map with the very code that runs in the firmware: the same pixels.\n"
-          "MAP.yb may be - for the standard input, OUT.png may be - for the standard output.\n"
-          "\n"
-          "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
-          "of GDAL: then the map has all their points, and no fractal detail.\n"
-          "\n"
-          "  -o, --output FILE   the picture, a PNG file\n"
-          "  --panel NAME        the exact pixels of a panel, grey levels times 17: ssd0323\n"
-          "                      (128x64, 16 greys)\n"
-          "  --orbit N           N pictures from round the map, beginning at --azimuth and going\n"
-          "                      on clockwise; FILE is a pattern such as f-%03d.png, numbered\n"
-          "                      from 0\n"
-          "  --json              print the camera in the engine's units, the numbers of triangles\n"
-          "                      and the hash (FNV-1a, 32 bits) of the pixel bytes\n"
-          "  --force             overwrite what exists\n"
-          "  --help              this text\n"
-          "\n",
-          stdout);
+    fputs(
+        "Usage: yamabiko render MAP.yb -o OUT.png [OPTION ...]\n"
+        "\n"
+        "Draws a map with the very code that runs in the firmware: the same pixels.\n"
+        "MAP.yb may be - for the standard input, OUT.png may be - for the standard output.\n"
+        "\n"
+        "MAP.yb is a code, or a vector file of contour lines with their heights, in any format\n"
+        "of GDAL: then the map has all their points, and no fractal detail.\n"
+        "\n"
+        "  -o, --output FILE   the picture, a PNG file\n"
+        "  --panel NAME        the exact pixels of a panel, grey levels times 17; 'yamabiko info\n"
+        "                      --panel' lists the panels\n"
+        "  --turn DEG          of a panel that is mounted on its side: 0, 90, 180 or 270; the\n"
+        "                      picture stands upright\n"
+        "  --orbit N           N pictures from round the map, beginning at --azimuth and going\n"
+        "                      on clockwise; FILE is a pattern such as f-%03d.png, numbered\n"
+        "                      from 0\n"
+        "  --json              print the camera in the engine's units, the numbers of triangles\n"
+        "                      and the hash (FNV-1a, 32 bits) of the pixel bytes\n"
+        "  --force             overwrite what exists\n"
+        "  --help              this text\n"
+        "\n",
+        stdout);
     fputs(cli_part_help, stdout);
     fputs("\nView:\n", stdout);
     fputs(yb_view_options_help, stdout);
@@ -92,7 +99,14 @@ static int take(request_t *request, int answer, int argc, char **argv)
         return CLI_OK;
     case OPTION_PANEL:
         request->panel = yb_panel_find(optarg);
-        return request->panel != NULL ? CLI_OK : cli_usage("there is no panel '%s'", optarg);
+        return request->panel != NULL
+                   ? CLI_OK
+                   : cli_usage("there is no panel '%s'; 'yamabiko info --panel' lists them",
+                               optarg);
+    case OPTION_TURN:
+        return cli_integer(optarg, 0, 270, &request->turn_deg) && request->turn_deg % 90 == 0
+                   ? CLI_OK
+                   : cli_usage("--turn: '%s' is not 0, 90, 180 or 270", optarg);
     case OPTION_ORBIT:
         if (!cli_integer(optarg, 1, 3600, &request->orbit))
             return cli_usage("--orbit: '%s' is not a whole number from 1 to 3600", optarg);
@@ -129,8 +143,13 @@ static int check(request_t *request)
     if (request->json && request->orbit == 0 && request->output[0] == '-' &&
         request->output[1] == '\0')
         return cli_usage("--json and '-o -' both want the standard output");
-    if (request->panel != NULL)
-        yb_view_options_panel(&request->view, &request->panel->screen);
+    if (request->turn_deg != 0 && request->panel == NULL)
+        return cli_usage("--turn is for a panel: name it by --panel");
+    if (request->panel != NULL) {
+        const yb_screen_t screen =
+            yb_outlet_screen(request->panel, (yb_turn_t)(request->turn_deg / 90));
+        yb_view_options_panel(&request->view, &screen);
+    }
     if (!yb_view_options_check(view, &error))
         return cli_usage("%s", error.text);
     return cli_part_check(&request->part);

@@ -2,6 +2,7 @@
 
 #include <png.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool yb_picture_init(yb_picture_t *picture, uint32_t width, uint32_t height, uint32_t channels)
 {
@@ -46,6 +47,27 @@ bool yb_picture_from_frame(yb_picture_t *picture, const yb_screen_t *screen, con
                 *sample = grey_at(screen, row, x);
             else
                 spread_rgb565(sample, (unsigned)row[2 * x] << 8 | row[2 * x + 1]);
+        }
+    }
+    return true;
+}
+
+bool yb_picture_turn(yb_picture_t *turned, const yb_picture_t *picture, unsigned quarters)
+{
+    const uint32_t width = picture->width, height = picture->height;
+    const bool across = quarters % 2 != 0;
+    if (!yb_picture_init(turned, across ? height : width, across ? width : height,
+                         picture->channels))
+        return false;
+    const uint8_t *sample = picture->samples;
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < width; x++, sample += picture->channels) {
+            const uint32_t to_x[4] = {x, height - 1 - y, width - 1 - x, y};
+            const uint32_t to_y[4] = {y, x, height - 1 - y, width - 1 - x};
+            memcpy(turned->samples +
+                       ((size_t)to_y[quarters % 4] * turned->width + to_x[quarters % 4]) *
+                           picture->channels,
+                   sample, picture->channels);
         }
     }
     return true;

@@ -21,6 +21,9 @@ void yb_picture_free(yb_picture_t *picture);
 /* A frame's pixels, yb_screen_pitch bytes a row. False: no memory. */
 bool yb_picture_from_frame(yb_picture_t *picture, const yb_screen_t *screen, const uint8_t *pixels);
 
+/* Turned clockwise by so many quarters; `turned` is new. False: no memory. */
+bool yb_picture_turn(yb_picture_t *turned, const yb_picture_t *picture, unsigned quarters);
+
 /* The whole PNG file in memory, to be freed. NULL: no memory. */
 uint8_t *yb_picture_png(const yb_picture_t *picture, size_t *size);
 

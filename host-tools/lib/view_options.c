@@ -72,6 +72,22 @@ bool yb_view_options_owns(int option)
     return option >= YB_OPTION_SIZE && option < YB_OPTION_VIEW_END;
 }
 
+int yb_view_options_values(int option)
+{
+    switch (option) {
+    case YB_OPTION_EYE:
+    case YB_OPTION_LOOK:
+    case YB_OPTION_FLY:
+    case YB_OPTION_LAMP:
+        return 3;
+    case YB_OPTION_WALK:
+    case YB_OPTION_SUN:
+        return 2;
+    default:
+        return 1;
+    }
+}
+
 bool yb_view_options_given(const yb_view_options_t *options, int option)
 {
     return (options->given >> (option - YB_OPTION_SIZE) & 1) != 0;

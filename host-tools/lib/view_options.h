@@ -128,6 +128,10 @@ typedef struct {
 yb_view_options_t yb_view_options_default(void);
 
 bool yb_view_options_owns(int option);
+
+/* How many values an option takes: 1 also for those of others and for those without any. */
+int yb_view_options_values(int option);
+
 bool yb_view_options_given(const yb_view_options_t *options, int option);
 
 /* The name of the option that was given to say where the eye is, but for --azimuth, --elevation and

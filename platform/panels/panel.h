@@ -151,6 +151,13 @@ extern const yb_panel_t yb_panel_ls013b7dh03; /* 128 x 128 */
 extern const yb_panel_t yb_panel_ls013b7dh05; /* 144 x 168 */
 extern const yb_panel_t yb_panel_ls027b7dh01; /* 400 x 240 */
 
+/* A whole frame on the wire, with what its window costs. */
+static inline uint32_t yb_panel_frame_bytes(const yb_panel_t *panel)
+{
+    return panel->window_bytes + (uint32_t)panel->screen.height *
+                                     (panel->row_bytes + (uint32_t)yb_screen_pitch(&panel->screen));
+}
+
 /* ---- Displays: a panel on a bus ----------------------------------------------------------- */
 
 /* The caller's; to be zeroed but for the first three fields, which stay as they are. */

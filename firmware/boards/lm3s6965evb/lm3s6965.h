@@ -64,6 +64,12 @@
 #define SSI_SR_RECEIVED (1u << 2)
 #define SSI_SR_BUSY (1u << 4)
 #define SSI0_CPSR YB_REGISTER(0x40008010)
+#define SSI0_IM YB_REGISTER(0x40008014)
+#define SSI_IM_TRANSMIT (1u << 3) /* the transmit FIFO is at most half full */
+
+/* The core's interrupt controller. */
+#define NVIC_ENABLE_0 YB_REGISTER(0xE000E100)
+#define NVIC_SSI0 (1u << 7)
 
 /* The core's timer. */
 #define SYSTICK_CTRL YB_REGISTER(0xE000E010)

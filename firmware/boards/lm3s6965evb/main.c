@@ -1,16 +1,21 @@
-/* The handheld: the mountain turns on the OLED, the console can hold it still. */
+/* The handheld: the mountain turns on the OLED, the console can hold it still. Only what changed is
+ * sent, while the next band is drawn. */
 #include "board.h"
 #include "oled.h"
 #include "turntable.h"
+#include "update.h"
 
 static yb_turntable_t table;
 static yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &yb_oled_bus};
+/* A started display is black, and so is this. */
+static uint8_t shown[YB_VIEWER_PITCH * YB_VIEWER_HEIGHT];
+static yb_update_t update = {.display = &display, .shown = shown};
 
 static void show_band(void *context, uint16_t y, const uint8_t *pixels)
 {
     (void)context;
     /* The bus never fails, and the band lies on the panel. */
-    (void)yb_display_write_rows(&display, y, YB_VIEWER_BAND_ROWS, pixels);
+    (void)yb_update_rows(&update, y, YB_VIEWER_BAND_ROWS, pixels);
 }
 
 int main(void)

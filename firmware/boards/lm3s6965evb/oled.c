@@ -3,6 +3,7 @@
  */
 #include "oled.h"
 
+#include "cortex_m/vectors.h"
 #include "lm3s6965.h"
 
 #define PIN_A_SSI 0x24u
@@ -14,8 +15,6 @@
 #define CORE_HZ 50000000u
 /* 50 MHz / 14 = 3.57 MHz: the SSD0323 takes at most 4. An even number, 2 to 254. */
 #define SSI_DIVIDER 14u
-/* SSI 0 holds eight frames each way. */
-#define FIFO_FRAMES 8u
 
 void yb_oled_start(void)
 {
@@ -42,42 +41,68 @@ void yb_oled_start(void)
     SSI0_CR0 = SSI_CR0_8_BITS;
     SSI0_CPSR = SSI_DIVIDER;
     SSI0_CR1 = SSI_CR1_ENABLE;
+    NVIC_ENABLE_0 = NVIC_SSI0;
 }
 
-/* Keeps the transmitter busy, and takes a byte back for each byte sent: an unread receive FIFO
- * would overrun, and QEMU's stops the transmitter. At most FIFO_FRAMES are under way, so none of
- * those that come back is lost.
- */
-static void send(const uint8_t *bytes, size_t count)
+/* What is under way: bytes that the interrupt hands to the transmitter. */
+static const uint8_t *volatile to_send;
+static volatile size_t left;
+
+/* Refills the transmit FIFO. What comes back means nothing, but an unread receive FIFO would
+ * overrun, and QEMU's stops the transmitter. */
+void yb_interrupt_7(void)
 {
-    size_t sent = 0;
-    size_t received = 0;
-    while (received < count) {
-        if (sent < count && sent - received < FIFO_FRAMES && (SSI0_SR & SSI_SR_TRANSMIT_ROOM))
-            SSI0_DR = bytes[sent++];
-        if (SSI0_SR & SSI_SR_RECEIVED) {
+    while (left > 0 && (SSI0_SR & SSI_SR_TRANSMIT_ROOM)) {
+        while (SSI0_SR & SSI_SR_RECEIVED)
             (void)SSI0_DR;
-            received++;
-        }
+        SSI0_DR = *to_send;
+        to_send = to_send + 1;
+        left = left - 1;
     }
-    /* The last byte came back, but its last clock may still be running: D/C must not move yet. */
+    if (left == 0)
+        SSI0_IM = 0;
+}
+
+static bool finish(void *context)
+{
+    (void)context;
+    while (left > 0) {
+    }
+    /* The last byte left the FIFO, but its last clock may still be running: D/C must not move yet.
+     */
     while (SSI0_SR & SSI_SR_BUSY) {
     }
+    while (SSI0_SR & SSI_SR_RECEIVED)
+        (void)SSI0_DR;
+    return true;
+}
+
+static void begin(uint32_t data_pin, const uint8_t *bytes, size_t count)
+{
+    (void)finish(NULL);
+    GPIO_DATA(GPIO_C, PIN_C_DATA) = data_pin;
+    to_send = bytes;
+    left = count;
+    SSI0_IM = SSI_IM_TRANSMIT;
 }
 
 static bool send_command(void *context, const uint8_t *bytes, size_t count)
 {
-    (void)context;
-    GPIO_DATA(GPIO_C, PIN_C_DATA) = 0;
-    send(bytes, count);
-    return true;
+    begin(0, bytes, count);
+    return finish(context);
 }
 
 static bool send_data(void *context, const uint8_t *bytes, size_t count)
 {
+    begin(PIN_C_DATA, bytes, count);
+    return finish(context);
+}
+
+/* The program goes on while the interrupt sends. */
+static bool send_pixels(void *context, const uint8_t *bytes, size_t count)
+{
     (void)context;
-    GPIO_DATA(GPIO_C, PIN_C_DATA) = PIN_C_DATA;
-    send(bytes, count);
+    begin(PIN_C_DATA, bytes, count);
     return true;
 }
 
@@ -95,4 +120,8 @@ static void wait_ms(void *context, uint32_t ms)
 }
 
 /* The display's reset is the board's. */
-const yb_panel_bus_t yb_oled_bus = {.command = send_command, .data = send_data, .wait_ms = wait_ms};
+const yb_panel_bus_t yb_oled_bus = {.command = send_command,
+                                    .data = send_data,
+                                    .pixels = send_pixels,
+                                    .finish = finish,
+                                    .wait_ms = wait_ms};

@@ -1,0 +1,38 @@
+/* The maps that are shown one after another: files, and the codes of folders that are watched.
+ *
+ *     yb_map_list_t *list = yb_map_list_open(paths, count, &error);
+ *     while (name = yb_map_list_at(list, 0)) …
+ *     poll yb_map_list_fd(list); when it can be read: changed = yb_map_list_update(list, current);
+ *     yb_map_list_close(list);
+ *
+ * A folder's codes are its files *.yb, by name. Files that come are added, those that go are
+ * dropped.
+ */
+#ifndef YB_MAP_LIST_H
+#define YB_MAP_LIST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "error.h"
+
+typedef struct yb_map_list yb_map_list_t;
+
+/* NULL with a sentence if a path is neither a file nor a folder that can be read, or if the files
+ * are none and no folder is watched that might get some. "-" stays as it is. */
+yb_map_list_t *yb_map_list_open(char *const *paths, size_t count, yb_error_t *error);
+void yb_map_list_close(yb_map_list_t *list);
+
+size_t yb_map_list_count(const yb_map_list_t *list);
+
+/* The path of one; until the next update. NULL beyond the last. */
+const char *yb_map_list_at(const yb_map_list_t *list, size_t index);
+
+/* A descriptor that can be read when a folder has changed; -1: there is none. */
+int yb_map_list_fd(const yb_map_list_t *list);
+
+/* Looks at the folders again. *index follows the map that it stood for, or, if that is gone, stays
+ * where the next one is. True: that map's own file was written or is gone. */
+bool yb_map_list_update(yb_map_list_t *list, size_t *index);
+
+#endif
