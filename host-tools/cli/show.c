@@ -123,9 +123,9 @@ static void help(void)
 static int take_button(request_t *request)
 {
     char *equals = strchr(optarg, '=');
-    int act = YB_ACT_NONE + 1;
+    yb_act_t act = YB_ACT_NEXT;
     while (equals != NULL && act < YB_ACT_END && strcmp(equals + 1, yb_act_name(act)) != 0)
-        act++;
+        act = (yb_act_t)(act + 1);
     if (equals == NULL || equals == optarg || act == YB_ACT_END)
         return cli_usage(
             "--button: '%s' is not LINE=ACT, where ACT is next, previous, left, right, "
@@ -135,7 +135,7 @@ static int take_button(request_t *request)
         return cli_usage("--button: there may be %d", YB_LINUX_BUTTONS_MAX);
     *equals = '\0';
     request->lines[request->buttons] = optarg;
-    request->acts[request->buttons++] = (yb_act_t)act;
+    request->acts[request->buttons++] = act;
     return CLI_OK;
 }
 

@@ -75,7 +75,8 @@ typedef struct {
     uint16_t y;
     uint16_t width;
     uint16_t rows;
-    const uint8_t *pixels; /* the top left corner, in the panel's format */
+    const uint8_t *pixels; /* the byte with the top left corner, in the panel's format; where it
+                            * holds eight pixels, that one is x % 8 from the left */
     size_t pitch_bytes;    /* from one row to the next */
 } yb_panel_window_t;
 

@@ -45,8 +45,8 @@ enum {
 static const uint8_t chip_setup[] = {
     /* Datasheet, "Set Display ON/OFF": nothing is shown while the registers change. */
     0, SET_DISPLAY_OFF,
-    /* "Set Display Clock Divide Ratio / Oscillator Frequency": fastest, undivided: with 54 clocks a
-     * row, over 100 frames a second, so nothing flickers in motion. */
+    /* "Set Display Clock Divide Ratio / Oscillator Frequency": fastest, undivided: with the 66 clocks
+     * a row of the precharge below, about 100 frames a second, so nothing flickers in motion. */
     1, SET_CLOCK, 0xF0,
     /* "Set Display Offset", "Set Display Start Line", "Deactivate Scroll": row 0 on top, at rest. */
     1, SET_OFFSET, 0,
@@ -133,14 +133,15 @@ static bool ssd1306_write(yb_display_t *display, const yb_panel_window_t *window
 {
     const yb_panel_bus_t *bus = display->bus;
     const uint8_t *rows = window->pixels;
-    uint8_t columns[WIDTH];
+    const uint16_t first = window->x % BLOCK;
+    uint8_t columns[WIDTH + BLOCK];
 
     if (!set_window(display, window->x, window->y, window->width, window->rows))
         return false;
     for (uint16_t row = 0; row < window->rows; row += BLOCK) {
-        for (uint16_t x = 0; x < window->width; x += BLOCK)
+        for (uint16_t x = 0; x < first + window->width; x += BLOCK)
             turn_block_over(rows + x / BLOCK, window->pitch_bytes, columns + x);
-        if (!bus->data(bus->context, columns, window->width))
+        if (!bus->data(bus->context, columns + first, window->width))
             return false;
         rows += BLOCK * window->pitch_bytes;
     }
@@ -176,7 +177,7 @@ const yb_panel_t yb_panel_ssd1306 = {
     .ram_width = WIDTH,
     .ram_height = 64,
     .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180,
-    .x_step = BLOCK,
+    .x_step = 1,
     .y_step = BLOCK,
     .window_bytes = 6,
     .setup = setup,
@@ -192,7 +193,7 @@ const yb_panel_t yb_panel_ssd1306_128x32 = {
     .ram_width = WIDTH,
     .ram_height = 64,
     .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180,
-    .x_step = BLOCK,
+    .x_step = 1,
     .y_step = BLOCK,
     .window_bytes = 6,
     .setup = setup_128x32,

@@ -31,7 +31,7 @@ static const uint8_t setup[] = {
     3, SET_FRAME_RATE, 0x01, 0x2C, 0x2D,
     3, SET_IDLE_RATE, 0x01, 0x2C, 0x2D,
     6, SET_PARTIAL_RATE, 0x01, 0x2C, 0x2D, 0x01, 0x2C, 0x2D,
-    /* "INVCTR": polarity changes with each frame, not with each column. */
+    /* "INVCTR": polarity changes from column to column, not from dot to dot, in all modes. */
     1, SET_POLARITY, 0x07,
     /* "PWCTR1" to "PWCTR5", "VMCTR1": source voltages of 4.6 V either way, gates of 14.7 V and -10 V,
      * currents as in the datasheet's table of defaults, and the common electrode at -0.775 V. */

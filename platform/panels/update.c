@@ -15,8 +15,8 @@ typedef struct {
 typedef struct {
     yb_update_t *update;
     size_t pitch;
-    size_t cell_bytes; /* of one of its rows */
-    uint16_t cells;    /* in a row */
+    uint8_t pixel_bits;
+    uint16_t cells; /* in a row */
     uint16_t x_step, y_step;
     uint16_t gap_cells; /* so many equal cells cost less than another window */
     rect_t open[OPEN_MOST];
@@ -24,17 +24,13 @@ typedef struct {
     bool well;
 } search_t;
 
-static size_t bytes_of(const search_t *search, uint16_t width)
-{
-    return (size_t)(width / search->x_step) * search->cell_bytes;
-}
-
+/* In bytes. */
 static size_t cost(const search_t *search, const rect_t *rect)
 {
     const yb_panel_t *panel = search->update->display->panel;
     const size_t rows = (size_t)(rect->y1 - rect->y0);
-    return panel->window_bytes +
-           rows * (panel->row_bytes + bytes_of(search, (uint16_t)(rect->x1 - rect->x0)));
+    const size_t row_bits = (size_t)(rect->x1 - rect->x0) * search->pixel_bits;
+    return panel->window_bytes + rows * panel->row_bytes + rows * row_bits / 8;
 }
 
 static void send(search_t *search, const rect_t *rect)
@@ -44,7 +40,8 @@ static void send(search_t *search, const rect_t *rect)
         .y = rect->y0,
         .width = (uint16_t)(rect->x1 - rect->x0),
         .rows = (uint16_t)(rect->y1 - rect->y0),
-        .pixels = search->update->shown + rect->y0 * search->pitch + bytes_of(search, rect->x0),
+        .pixels = search->update->shown + rect->y0 * search->pitch +
+                  (size_t)rect->x0 * search->pixel_bits / 8,
         .pitch_bytes = search->pitch,
     };
     search->well = search->well && yb_display_write(search->update->display, &window);
@@ -98,16 +95,21 @@ static void add_run(search_t *search, const rect_t *run)
     search->open[search->opened++] = *run;
 }
 
-/* Not memcmp: cells are short, and our freestanding targets have none. */
+/* A cell is some whole bytes, or some bits of one. Not memcmp: cells are short, and our
+ * freestanding targets have none. */
 static bool cell_differs(const search_t *search, const uint8_t *pixels, uint16_t y, uint16_t cell)
 {
-    const size_t at = cell * search->cell_bytes;
+    const size_t bits = (size_t)search->x_step * search->pixel_bits;
+    const size_t at = cell * bits / 8;
+    const size_t bytes = bits < 8 ? 1 : bits / 8;
+    const uint8_t mask =
+        bits < 8 ? (uint8_t)(((1U << bits) - 1) << (8 - bits - cell * bits % 8)) : 0xFF;
     const uint8_t *shown = search->update->shown + y * search->pitch + at;
     pixels += at;
 
     for (uint16_t row = 0; row < search->y_step; row++) {
-        for (size_t i = 0; i < search->cell_bytes; i++) {
-            if (shown[i] != pixels[i])
+        for (size_t i = 0; i < bytes; i++) {
+            if (((shown[i] ^ pixels[i]) & mask) != 0)
                 return true;
         }
         shown += search->pitch;
@@ -152,14 +154,15 @@ static search_t search_of(yb_update_t *update, const yb_screen_t *screen)
 {
     search_t search = {.update = update,
                        .pitch = yb_screen_pitch(screen),
+                       .pixel_bits = screen->format == YB_MONO    ? 1
+                                     : screen->format == YB_GREY4 ? 4
+                                                                  : 16,
                        .x_step = yb_display_x_step(update->display),
                        .y_step = yb_display_y_step(update->display),
                        .well = true};
-    const yb_screen_t cell = {search.x_step, 1, screen->format};
-    search.cell_bytes = yb_screen_pitch(&cell);
+    const uint32_t cell_bits = (uint32_t)search.x_step * search.y_step * search.pixel_bits;
     search.cells = (uint16_t)(screen->width / search.x_step);
-    search.gap_cells =
-        (uint16_t)(update->display->panel->window_bytes / (search.cell_bytes * search.y_step));
+    search.gap_cells = (uint16_t)(8U * update->display->panel->window_bytes / cell_bits);
     return search;
 }
 

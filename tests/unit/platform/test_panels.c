@@ -6,6 +6,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -355,10 +356,26 @@ static uint16_t random_stretch(uint16_t size, uint16_t step, uint16_t *from)
     return (uint16_t)(length * step);
 }
 
-static size_t row_bytes_of(const yb_screen_t *screen, uint16_t width)
+static size_t bits_of(const yb_screen_t *screen, uint16_t width)
 {
-    const yb_screen_t strip = {width, 1, screen->format};
-    return yb_screen_pitch(&strip);
+    return (size_t)width * (screen->format == YB_MONO ? 1 : screen->format == YB_GREY4 ? 4 : 16);
+}
+
+static void copy_bits(uint8_t *to, const uint8_t *from, size_t first, size_t count)
+{
+    for (size_t bit = first; bit < first + count; bit++) {
+        const uint8_t mask = (uint8_t)(0x80 >> bit % 8);
+        to[bit / 8] = (uint8_t)((to[bit / 8] & ~mask) | (from[bit / 8] & mask));
+    }
+}
+
+static void copy_window(const yb_screen_t *screen, const yb_panel_window_t *window, uint8_t *to,
+                        const uint8_t *from)
+{
+    for (unsigned row = 0; row < window->rows; row++)
+        copy_bits(to, from,
+                  8 * (window->y + row) * window->pitch_bytes + bits_of(screen, window->x),
+                  bits_of(screen, window->width));
 }
 
 /* A window somewhere, out of the whole picture `pixels`. */
@@ -369,8 +386,7 @@ static yb_panel_window_t random_window(const yb_display_t *display, const uint8_
 
     window.width = random_stretch(screen.width, yb_display_x_step(display), &window.x);
     window.rows = random_stretch(screen.height, yb_display_y_step(display), &window.y);
-    window.pixels = pixels + window.y * window.pitch_bytes +
-                    (window.x > 0 ? row_bytes_of(&screen, window.x) : 0);
+    window.pixels = pixels + window.y * window.pitch_bytes + bits_of(&screen, window.x) / 8;
     return window;
 }
 
@@ -385,15 +401,13 @@ static void check_windows(wire_t *wire, yb_panel_bus_t *bus, yb_display_t *displ
     for (unsigned i = 0; i < 40; i++) {
         draw_noise(other, frame_bytes(display), i);
         const yb_panel_window_t window = random_window(display, other);
-        const size_t row_bytes = row_bytes_of(&screen, window.width);
+        const size_t row_bits = bits_of(&screen, window.width);
         const size_t before = wire->bytes;
         assert_true(yb_display_write(display, &window));
-        assert_int_equal(wire->bytes - before,
-                         panel->window_bytes + window.rows * (row_bytes + panel->row_bytes));
-        for (unsigned row = 0; row < window.rows; row++) {
-            const size_t at = (size_t)(window.pixels - other) + row * window.pitch_bytes;
-            memcpy(frame + at, other + at, row_bytes);
-        }
+        assert_int_equal(wire->bytes - before, panel->window_bytes +
+                                                   (size_t)window.rows * panel->row_bytes +
+                                                   window.rows * row_bits / 8);
+        copy_window(&screen, &window, frame, other);
         if (i % 8 == 0)
             assert_shown(wire, display, frame, 0);
     }
@@ -635,10 +649,7 @@ static void check_late(wire_t *wire, yb_panel_bus_t *bus, yb_display_t *display)
     assert_true(yb_display_write(display, &window));
     assert_true(yb_display_invert(display, true) && yb_display_invert(display, false) &&
                 yb_display_finish(display));
-    for (unsigned row = 0; row < window.rows; row++) {
-        const size_t at = (size_t)(window.pixels - other) + row * window.pitch_bytes;
-        memcpy(frame + at, other + at, row_bytes_of(&screen, window.width));
-    }
+    copy_window(&screen, &window, frame, other);
     memset(other, POISON, sizeof other);
     assert_shown(wire, display, frame, 0);
 }
@@ -692,7 +703,8 @@ static void descriptions_fit_together(void **state)
         assert_true(panel->ram_y + panel->screen.height <= panel->ram_height);
         assert_int_equal(panel->screen.width % panel->x_step, 0);
         assert_int_equal(panel->screen.height % panel->y_step, 0);
-        assert_true(row_bytes_of(&panel->screen, panel->x_step) > 0);
+        assert_true(panel->x_step > 0 &&
+                    bits_of(&panel->screen, panel->x_step) * panel->y_step % 8 == 0);
         assert_true(panel->spi_hz >= 1000000);
         size_t at = 0;
         while (at < panel->setup_bytes) {
@@ -700,6 +712,46 @@ static void descriptions_fit_together(void **state)
             at += 2U + (head & (YB_SETUP_WAIT - 1U)) + ((head & YB_SETUP_WAIT) != 0);
         }
         assert_int_equal(at, panel->setup_bytes);
+    }
+}
+
+/* A number as the page writes it: 153,611. */
+static void write_number(char text[16], uint32_t number)
+{
+    if (number < 1000)
+        (void)snprintf(text, 16, "%u", (unsigned)number);
+    else
+        (void)snprintf(text, 16, "%u,%03u", (unsigned)(number / 1000), (unsigned)(number % 1000));
+}
+
+/* The table of docs/PANELS.md has a row for each panel, with its figures. */
+static void the_page_knows_every_panel(void **state)
+{
+    const yb_panel_t *panel;
+
+    (void)state;
+    for (size_t i = 0; (panel = yb_panel_at(i)) != NULL; i++) {
+        const uint32_t bytes = yb_panel_frame_bytes(panel);
+        char name[32];
+        char size[32];
+        char costs[64];
+        char number[2][16];
+        char line[512] = "";
+        FILE *page = fopen(YB_PAGE, "r");
+        assert_non_null(page);
+        (void)snprintf(name, sizeof name, "| `%s` |", panel->name);
+        while (strncmp(line, name, strlen(name)) != 0)
+            if (fgets(line, sizeof line, page) == NULL)
+                fail_msg("the page has no row for %s", panel->name);
+        (void)fclose(page);
+        (void)snprintf(size, sizeof size, "| %u x %u |", panel->screen.width, panel->screen.height);
+        write_number(number[0], bytes);
+        write_number(number[1], panel->spi_hz / (8 * bytes));
+        (void)snprintf(costs, sizeof costs, " MHz | %s | %s |", number[0], number[1]);
+        if (strstr(line, size) == NULL || strstr(line, costs) == NULL)
+            fail_msg("the page's row for %s wants \"%s\" and \"%s\"", panel->name, size, costs);
+        assert_int_equal(strstr(line, "| all |") != NULL, panel->turns == 0x0F);
+        assert_int_equal(strstr(line, "| 0, 180 |") != NULL, panel->turns == 0x05);
     }
 }
 
@@ -723,6 +775,7 @@ int main(void)
         cmocka_unit_test(panels_are_found_by_name),
         cmocka_unit_test(every_panel_has_a_model),
         cmocka_unit_test(descriptions_fit_together),
+        cmocka_unit_test(the_page_knows_every_panel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

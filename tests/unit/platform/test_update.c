@@ -21,17 +21,27 @@ static size_t sent_bytes, sent_windows, fail_after;
 static const yb_panel_window_t *pending; /* pixels that DMA has not fetched yet */
 static yb_panel_window_t pending_window;
 
+static size_t pixel_bits(yb_format_t format)
+{
+    return format == YB_MONO ? 1 : format == YB_GREY4 ? 4 : 16;
+}
+
+/* Bit by bit, so that any window can be told from its neighbours. */
 static bool fetch(void *context)
 {
     const yb_display_t *display = context;
     const yb_screen_t screen = yb_display_screen(display);
     if (pending == NULL)
         return true;
-    const yb_screen_t strip = {pending->width, 1, screen.format};
-    const yb_screen_t before = {pending->x, 1, screen.format};
-    for (size_t row = 0; row < pending->rows; row++)
-        memcpy(glass + (pending->y + row) * yb_screen_pitch(&screen) + yb_screen_pitch(&before),
-               pending->pixels + row * pending->pitch_bytes, yb_screen_pitch(&strip));
+    const size_t bits = pixel_bits(screen.format), first = pending->x * bits % 8;
+    for (size_t row = 0; row < pending->rows; row++) {
+        const uint8_t *from = pending->pixels + row * pending->pitch_bytes;
+        uint8_t *to = glass + (pending->y + row) * yb_screen_pitch(&screen) + pending->x * bits / 8;
+        for (size_t bit = first; bit < first + pending->width * bits; bit++) {
+            const uint8_t mask = (uint8_t)(0x80 >> bit % 8);
+            to[bit / 8] = (uint8_t)((to[bit / 8] & ~mask) | (from[bit / 8] & mask));
+        }
+    }
     pending = NULL;
     return true;
 }
@@ -44,12 +54,12 @@ static bool test_start(yb_display_t *display)
 
 static bool test_write(yb_display_t *display, const yb_panel_window_t *window)
 {
-    const yb_screen_t strip = {window->width, 1, display->panel->screen.format};
     fetch(display);
     if (sent_windows >= fail_after)
         return false;
     sent_windows++;
-    sent_bytes += display->panel->window_bytes + window->rows * yb_screen_pitch(&strip);
+    sent_bytes += display->panel->window_bytes +
+                  window->rows * window->width * pixel_bits(display->panel->screen.format) / 8;
     pending_window = *window;
     pending = &pending_window;
     return true;
@@ -114,7 +124,7 @@ static const struct {
     uint8_t x_step, y_step;
 } shapes[] = {
     {YB_RGB565, 61, 47, 1, 1}, {YB_GREY4, 64, 40, 2, 1}, {YB_MONO, 64, 48, 8, 8},
-    {YB_MONO, 56, 30, 56, 1},  {YB_RGB565, 1, 1, 1, 1},
+    {YB_MONO, 64, 48, 1, 8},   {YB_MONO, 56, 30, 56, 1}, {YB_RGB565, 1, 1, 1, 1},
 };
 
 /* Frames in which few, some or all pixels change, here and there or in blocks. */
