@@ -176,35 +176,38 @@ static bool is_about(const yb_map_list_t *list, const struct inotify_event *even
     return false;
 }
 
-/* Takes all events that wait; true if one was about the path. */
-static bool take_events(const yb_map_list_t *list, const char *path)
+/* Takes all events that wait, and says whom they were about. */
+static yb_maps_change_t take_events(const yb_map_list_t *list, const char *path)
 {
     union {
         struct inotify_event first;
         char bytes[4096];
     } events;
-    bool touched = false;
+    yb_maps_change_t change = YB_MAPS_SAME;
     ssize_t got;
     while ((got = read(list->fd, &events, sizeof(events))) > 0) {
         const struct inotify_event *event = NULL;
         for (char *at = events.bytes; at < events.bytes + got; at += sizeof(*event) + event->len) {
             event = (const struct inotify_event *)(const void *)at;
-            touched = touched || (path != NULL && is_about(list, event, path));
+            if (path != NULL && is_about(list, event, path))
+                change = YB_MAPS_THIS;
+            else if (change == YB_MAPS_SAME)
+                change = YB_MAPS_OTHERS;
         }
     }
-    return touched;
+    return change;
 }
 
-bool yb_map_list_update(yb_map_list_t *list, size_t *index)
+yb_maps_change_t yb_map_list_update(yb_map_list_t *list, size_t *index)
 {
     names_t now = {0};
     const char *current = yb_map_list_at(list, *index);
-    if (list->fd < 0)
-        return false;
-    bool touched = take_events(list, current);
+    yb_maps_change_t change = list->fd < 0 ? YB_MAPS_SAME : take_events(list, current);
+    if (change == YB_MAPS_SAME)
+        return YB_MAPS_SAME;
     if (!list_all(list, &now)) {
         free_names(&now); /* no memory: as it was */
-        return touched;
+        return change;
     }
     size_t place = 0;
     while (current != NULL && place < now.count && strcmp(now.at[place], current) != 0)
@@ -212,10 +215,10 @@ bool yb_map_list_update(yb_map_list_t *list, size_t *index)
     if (current != NULL && place < now.count)
         *index = place;
     else
-        touched = true;
+        change = YB_MAPS_THIS;
     free_names(&list->names);
     list->names = now;
     if (*index >= now.count)
         *index = 0;
-    return touched;
+    return change;
 }

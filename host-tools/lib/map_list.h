@@ -2,7 +2,7 @@
  *
  *     yb_map_list_t *list = yb_map_list_open(paths, count, &error);
  *     while (name = yb_map_list_at(list, 0)) …
- *     poll yb_map_list_fd(list); when it can be read: changed = yb_map_list_update(list, current);
+ *     poll yb_map_list_fd(list); when it can be read: yb_map_list_update(list, &current);
  *     yb_map_list_close(list);
  *
  * A folder's codes are its files *.yb, by name. Files that come are added, those that go are
@@ -31,8 +31,14 @@ const char *yb_map_list_at(const yb_map_list_t *list, size_t index);
 /* A descriptor that can be read when a folder has changed; -1: there is none. */
 int yb_map_list_fd(const yb_map_list_t *list);
 
-/* Looks at the folders again. *index follows the map that it stood for, or, if that is gone, stays
- * where the next one is. True: that map's own file was written or is gone. */
-bool yb_map_list_update(yb_map_list_t *list, size_t *index);
+typedef enum {
+    YB_MAPS_SAME,   /* nothing has happened */
+    YB_MAPS_OTHERS, /* others came or went */
+    YB_MAPS_THIS    /* this one's file was written or is gone */
+} yb_maps_change_t;
+
+/* Looks at the folders again, if anything has happened there. *index follows the map that it stood
+ * for, or, if that is gone, stays where the next one is. */
+yb_maps_change_t yb_map_list_update(yb_map_list_t *list, size_t *index);
 
 #endif

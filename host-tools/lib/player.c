@@ -255,8 +255,11 @@ void yb_player_act(yb_player_t *player, yb_act_t act)
 void yb_player_update(yb_player_t *player)
 {
     size_t index = player->index;
+    const yb_maps_change_t change = yb_map_list_update(player->list, &index);
+    if (change == YB_MAPS_SAME)
+        return;
     player->failures = 0;
-    if (yb_map_list_update(player->list, &index) || player->file == NULL)
+    if (change == YB_MAPS_THIS || player->file == NULL)
         go_to(player, index);
     player->index = index;
 }
