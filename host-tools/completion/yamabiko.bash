@@ -17,13 +17,14 @@ _yamabiko()
     fi
 
     case $before in
-    --bus) values=gpiod ;;
+    --bus) values='gpiod spidev' ;;
     --format) values='grey4 rgb565 mono' ;;
     --palette) values='natural hypsometric mono night' ;;
     --shadows) values='16 32 64 128 256' ;;
-    --panel) values=ssd0323 ;;
+    --panel) values=$("$command" info --panel 2>/dev/null | awk 'NR > 2 { print $1 }') ;;
     --profile) values=paper ;;
     --stage) values='contours links triangles' ;;
+    --turn) values='0 90 180 270' ;;
     --view)
         values='orbit-45 orbit-135 orbit-225 orbit-315 summit-1 summit-2 walk-1 walk-2'
         ;;
