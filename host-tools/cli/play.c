@@ -177,7 +177,8 @@ void cli_play_sum(const cli_play_t *play, const cli_played_t *played)
     if (!play->stats || played->frames == 0)
         return;
     const double bytes = (double)played->bytes / (double)played->frames;
-    printf("%ld frames, %.0f bytes/frame, %.0f %% of whole frames\n", played->frames, bytes,
+    printf("%ld frames, %llu bytes, %.0f bytes/frame, %.0f %% of whole frames\n", played->frames,
+           (unsigned long long)played->bytes, bytes,
            100 * bytes / yb_panel_frame_bytes(play->panel));
 }
 

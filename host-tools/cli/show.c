@@ -104,7 +104,7 @@ static void help(void)
         "  --retry             if the panel cannot be reached, try again after 1, 2, 4 … 60\n"
         "                      seconds; else exit with code 3\n"
         "  --keep              leave the last picture on the panel at the end\n"
-          "  --once              the same as --frames 1 --keep\n"
+        "  --once              the same as --frames 1 --keep\n"
         "  --help              this text\n",
         stdout);
     fputs(cli_play_help, stdout);

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include <model_bus.h>
+#include <recorder.h>
 #include <turntable.h>
 #include <window.h>
 
@@ -20,6 +21,7 @@ enum {
     OPTION_SCALE = 256,
     OPTION_FULL_SCREEN,
     OPTION_PNG,
+    OPTION_RECORD,
     OPTION_FORCE,
     OPTION_FAST,
     OPTION_HELP,
@@ -30,6 +32,7 @@ enum {
 static const struct option options[] = {{"scale", required_argument, NULL, OPTION_SCALE},
                                         {"full-screen", no_argument, NULL, OPTION_FULL_SCREEN},
                                         {"png", required_argument, NULL, OPTION_PNG},
+                                        {"record", required_argument, NULL, OPTION_RECORD},
                                         {"force", no_argument, NULL, OPTION_FORCE},
                                         {"fast", no_argument, NULL, OPTION_FAST},
                                         {"help", no_argument, NULL, OPTION_HELP},
@@ -40,7 +43,7 @@ static const struct option options[] = {{"scale", required_argument, NULL, OPTIO
 typedef struct {
     cli_play_t play;
     long scale;
-    const char *png;
+    const char *png, *record;
     bool full_screen, force, fast, help;
 } request_t;
 
@@ -48,6 +51,8 @@ typedef struct {
 typedef struct {
     const request_t *request;
     yb_model_bus_t wires;
+    yb_recorder_t recorder;
+    const yb_panel_bus_t *bus; /* that of the wires, or the recorder's */
     yb_map_list_t *list;
     yb_window_t *window;        /* NULL: headless */
     yb_picture_t picture;       /* the last one, as it was shown */
@@ -113,6 +118,9 @@ static int take(request_t *request, int answer, int argc, char **argv)
     case OPTION_PNG:
         request->png = optarg;
         return CLI_OK;
+    case OPTION_RECORD:
+        request->record = optarg;
+        return CLI_OK;
     case OPTION_FORCE:
         request->force = true;
         return CLI_OK;
@@ -154,7 +162,8 @@ static int check(request_t *request, size_t maps)
     const int status = handheld ? check_handheld(request, maps) : cli_play_check(&request->play);
     if (status != CLI_OK)
         return status;
-    if (request->png != NULL && !yb_output_allowed(request->png, request->force, &error))
+    if ((request->png != NULL && !yb_output_allowed(request->png, request->force, &error)) ||
+        (request->record != NULL && !yb_output_allowed(request->record, request->force, &error)))
         return cli_fail("%s", error.text);
     return CLI_OK;
 }
@@ -306,8 +315,8 @@ static void play_maps(scene_t *scene, char **maps, size_t count)
     }
     yb_player_t *player = cli_play_player(play, scene->list);
     const yb_outlet_clock_t clock = {.now_ms = wires_ms, .context = scene};
-    yb_outlet_t *outlet = yb_outlet_open(play->panel, play->turn, &scene->wires.bus,
-                                         cli_play_band_rows(play), &clock);
+    yb_outlet_t *outlet =
+        yb_outlet_open(play->panel, play->turn, scene->bus, cli_play_band_rows(play), &clock);
     const cli_stage_t stage = {.context = scene,
                                .outlet = outlet,
                                .wait = wait_for,
@@ -398,9 +407,8 @@ static void run_handheld(handheld_t *handheld, const yb_turntable_port_t *port)
 static void play_handheld(scene_t *scene, const char *map)
 {
     static uint8_t slot[MAP_MOST] = {0xff, 0xff}; /* empty */
-    handheld_t handheld = {.scene = scene,
-                           .display = {.panel = scene->wires.panel, .bus = &scene->wires.bus},
-                           .key = -1};
+    handheld_t handheld = {
+        .scene = scene, .display = {.panel = scene->wires.panel, .bus = scene->bus}, .key = -1};
     const yb_turntable_port_t port = {.board = "sim",
                                       .context = &handheld,
                                       .read = read_console,
@@ -438,21 +446,54 @@ static bool open_window(scene_t *scene)
     return scene->window != NULL || fail(scene, why);
 }
 
+static void play(scene_t *scene, char **maps, size_t count)
+{
+    const request_t *request = scene->request;
+    if (!open_window(scene))
+        return;
+    if (request->play.panel == NULL)
+        play_handheld(scene, count > 0 ? maps[0] : NULL);
+    else
+        play_maps(scene, maps, count);
+    if (!scene->failed && request->png != NULL)
+        (void)(keep_picture(scene) && write_png(scene, request->png, request->force));
+}
+
+/* The same, and what goes over the wires is written down. */
+static void play_recorded(scene_t *scene, char **maps, size_t count)
+{
+    const request_t *request = scene->request;
+    yb_error_t error;
+    yb_output_t *output = yb_output_open(request->record, request->force, &error);
+    FILE *file = output != NULL ? fopen(yb_output_path(output), "w") : NULL;
+    if (file != NULL) {
+        yb_recorder_init(&scene->recorder, file, &scene->wires.bus);
+        scene->bus = &scene->recorder.bus;
+        play(scene, maps, count);
+        const bool written = ferror(file) == 0;
+        if (fclose(file) != 0 || !written)
+            (void)yb_error_set(&error, "%s cannot be written", request->record);
+        else if (yb_output_commit(output, &error))
+            error.text[0] = '\0';
+    } else if (output != NULL) {
+        (void)yb_error_set(&error, "%s cannot be written", request->record);
+    }
+    yb_output_close(output);
+    if (error.text[0] != '\0')
+        fail(scene, error.text);
+}
+
 static int run(const request_t *request, char **maps, size_t count)
 {
     const bool handheld = request->play.panel == NULL;
-    const yb_panel_t *panel = handheld ? &yb_panel_ssd0323 : request->play.panel;
     scene_t scene = {.request = request};
-    if (!yb_model_bus_open(&scene.wires, panel))
+    if (!yb_model_bus_open(&scene.wires, handheld ? &yb_panel_ssd0323 : request->play.panel))
         return cli_fail("out of memory");
-    if (open_window(&scene)) {
-        if (handheld)
-            play_handheld(&scene, count > 0 ? maps[0] : NULL);
-        else
-            play_maps(&scene, maps, count);
-    }
-    if (!scene.failed && request->png != NULL)
-        (void)(keep_picture(&scene) && write_png(&scene, request->png, request->force));
+    scene.bus = &scene.wires.bus;
+    if (request->record != NULL)
+        play_recorded(&scene, maps, count);
+    else
+        play(&scene, maps, count);
     yb_picture_free(&scene.picture);
     yb_window_close(scene.window);
     yb_model_bus_close(&scene.wires);

@@ -28,6 +28,9 @@ and two on foot. Fidelity is of codes made from the development windows, beside 
 that have no header (`tests/budget/group_fidelity.py` says more). Codes of 60 and 100 bytes are made at the
 usual effort 5, those of 200 and 400 bytes at effort 3, with a ninth of its trials: more effort is worth more.
 
+Panels: bytes over the wires in a slow turn round the maps, a degree a frame from the standard orbit, against
+whole frames; a memory LCD takes whole lines only. "At the rated clock" is what the bus alone would carry.
+
 Pc: frames a second by the CPU's time of one core of the machine that measured; unlike all other figures
 they depend on it.
 

@@ -13,11 +13,13 @@ FRAMES = 361  # the first is sent whole
 
 
 def bytes_a_frame(name, panel, *options):
-    said = boards.tool(PROGRAM, "sim", boards.ROOT / "maps" / f"{name}.yb", "--panel", panel["name"],
-                       "--frames", FRAMES, "--png", os.devnull, "--force", "--stats", *options)
-    whole, each = re.search(r"(\d+) frames, (\d+) bytes/frame", said).groups()
-    assert int(whole) == FRAMES
-    return (int(each) * FRAMES - panel["frame_bytes"]) / (FRAMES - 1)
+    words = ("sim", boards.ROOT / "maps" / f"{name}.yb", "--panel", panel["name"], "--png", os.devnull,
+             "--force", "--stats", *options)
+    said = boards.tool(PROGRAM, *words, "--frames", FRAMES)
+    frames, sent = map(int, re.search(r"(\d+) frames, (\d+) bytes", said).groups())
+    assert frames == FRAMES
+    first = boards.tool(PROGRAM, *words, "--frames", 1)
+    return (sent - int(re.search(r", (\d+) bytes", first).group(1))) / (FRAMES - 1)
 
 
 def measure():
@@ -27,6 +29,6 @@ def measure():
         yield "bytes of a frame in a slow turn", panel["name"], round(mean), "bytes"
         yield "the same against a whole frame", panel["name"], f"{mean / panel['frame_bytes']:.2f}", "ratio"
         still = bytes_a_frame(boards.MEASURED[0], panel)
-        yield "bytes of a still frame", panel["name"], max(0, round(still)), "bytes"
+        yield "bytes of a still frame", panel["name"], f"{still:g}", "bytes"
         yield "whole frames at the rated clock", panel["name"], \
             f"{panel['frames_per_second']:.1f}", "frames a second"

@@ -100,7 +100,21 @@ class Playing(Case):
         said = self.good("sim", FUJI, "--panel", "st7789", "--frames", 3, "--png", os.devnull,
                          "--force", "--stats").stdout
         # A picture that stands still is sent once.
-        self.assertEqual(said, f"3 frames, {(240 * 240 * 2 + 8 * 11) // 3} bytes/frame, 33 % of whole frames\n")
+        sent = 240 * 240 * 2 + 8 * 11  # by eight bands
+        self.assertEqual(said, f"3 frames, {sent} bytes, {sent // 3} bytes/frame, 33 % of whole frames\n")
+
+    def test_record(self):
+        path = self.folder / "wires.txt"
+        place = (FUJI, "--panel", "st7789", "--frames", 2, "--png", os.devnull, "--force")
+        self.good("sim", *place, "--record", path, "--whole")
+        lines = path.read_text().splitlines()
+        self.assertEqual(lines[0], "reset")
+        self.assertIn("command 2c", lines)
+        self.assertGreater(lines.count("command 2c"), 2 * 8)
+        self.assertTrue(any(line.startswith("wait ") for line in lines))
+        sent = sum(len(line.split()) - 1 for line in lines if line[0] in "cd")
+        self.assertGreater(sent, 3 * 240 * 240 * 2)  # blackened, and drawn twice
+        self.refused(1, "wires.txt", "sim", *place[:-1], "--record", path)
 
     def test_folders_and_maps_that_are_none(self):
         for name, bytes_ in (("a.yb", b"no code"), ("b.yb", FUJI.read_bytes()), ("c.txt", b"")):
