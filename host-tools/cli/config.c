@@ -10,10 +10,14 @@
 #include "view_options.h"
 
 typedef struct {
-    cli_config_t *config;
+    cli_config_t *config, *maps;
     const struct option *options;
-    const char *key; /* that was refused, and why */
+    FILE *file;
+    int line; /* that was read last */
+    /* What was refused first, and why. */
+    char *key;
     const char *why;
+    int why_line;
 } reader_t;
 
 static bool add(cli_config_t *config, char *word)
@@ -61,8 +65,24 @@ static bool refuse(reader_t *reader, const char *key, const char *why)
     if (reader->why == NULL) {
         reader->key = strdup(key);
         reader->why = why;
+        reader->why_line = reader->line;
     }
     return false;
+}
+
+/* A map whose name begins like an option's is still a map. */
+static bool take_map(reader_t *reader, const char *value)
+{
+    const bool like_option = value[0] == '-' && value[1] != '\0';
+    const size_t room = strlen(value) + 3;
+    char *word = malloc(room);
+    if (*value == '\0') {
+        free(word);
+        return refuse(reader, "map", "needs a value");
+    }
+    if (word != NULL)
+        snprintf(word, room, "%s%s", like_option ? "./" : "", value);
+    return add(reader->maps, word);
 }
 
 static bool take(reader_t *reader, const struct option *option, const char *value)
@@ -93,8 +113,7 @@ static int on_line(void *user, const char *section, const char *key, const char 
     const struct option *option = reader->options;
     (void)section;
     if (strcmp(key, "map") == 0)
-        return *value != '\0' ? add(reader->config, strdup(value))
-                              : refuse(reader, key, "needs a value");
+        return take_map(reader, value);
     while (option->name != NULL && strcmp(option->name, key) != 0)
         option++;
     if (option->name == NULL || strcmp(key, "config") == 0 || strcmp(key, "help") == 0)
@@ -102,50 +121,86 @@ static int on_line(void *user, const char *section, const char *key, const char 
     return take(reader, option, value);
 }
 
-static int read_file(cli_config_t *config, const struct option *options, const char *path)
+/* As fgets. The library takes an indented line for more of the one before, and a line that is too
+ * long for two. */
+static char *next_line(char *text, int room, void *user)
 {
-    reader_t reader = {.config = config, .options = options};
-    errno = 0;
-    FILE *file = fopen(path, "r");
-    if (file == NULL)
+    reader_t *reader = user;
+    if (reader->why != NULL || fgets(text, room, reader->file) == NULL)
+        return NULL;
+    reader->line++;
+    if (strchr(text, '\n') == NULL && feof(reader->file) == 0) {
+        (void)refuse(reader, "", "is too long");
+        return NULL;
+    }
+    const size_t indent = strspn(text, " \t");
+    memmove(text, text + indent, strlen(text + indent) + 1);
+    return text;
+}
+
+static int explain(const reader_t *reader, const char *path, int wrong_line)
+{
+    if (reader->why != NULL && (wrong_line <= 0 || reader->why_line <= wrong_line))
+        return cli_usage("%s: line %d%s%s%s %s", path, reader->why_line,
+                         *reader->key != '\0' ? ": '" : "", reader->key,
+                         *reader->key != '\0' ? "'" : "", reader->why);
+    if (wrong_line > 0)
+        return cli_usage("%s: line %d is neither [section] nor key = value", path, wrong_line);
+    return wrong_line < 0 ? cli_fail("out of memory") : CLI_OK;
+}
+
+static int read_file(cli_config_t *config, cli_config_t *maps, const struct option *options,
+                     const char *path)
+{
+    reader_t reader = {
+        .config = config, .maps = maps, .options = options, .file = fopen(path, "r")};
+    if (reader.file == NULL)
         return cli_fail("%s: %s", path, strerror(errno));
-    const int line = ini_parse_file(file, on_line, &reader);
-    const bool unread = ferror(file) != 0;
-    fclose(file);
-    int status = CLI_OK;
-    if (unread)
-        status = cli_fail("%s: cannot be read", path);
-    else if (line > 0 && reader.why != NULL)
-        status = cli_usage("%s: line %d: '%s' %s", path, line, reader.key, reader.why);
-    else if (line > 0)
-        status = cli_usage("%s: line %d is neither [section] nor key = value", path, line);
-    else if (line < 0)
-        status = cli_fail("out of memory");
-    free((char *)reader.key);
+    const int wrong_line = ini_parse_stream(next_line, &reader, on_line, &reader);
+    const bool unread = ferror(reader.file) != 0;
+    fclose(reader.file);
+    const int status =
+        unread ? cli_fail("%s: cannot be read", path) : explain(&reader, path, wrong_line);
+    free(reader.key);
     return status;
 }
 
 /* The value of --config at argv[i], or NULL. */
 static const char *config_at(int argc, char **argv, int i)
 {
-    if (strncmp(argv[i], "--config=", 9) == 0)
-        return argv[i] + 9;
-    return strcmp(argv[i], "--config") == 0 && i + 1 < argc ? argv[i + 1] : NULL;
+    enum {
+        SHORTEST = 6 /* --conf: getopt_long takes names cut short, too */
+    };
+    const char *equals = strchr(argv[i], '=');
+    const size_t length = equals != NULL ? (size_t)(equals - argv[i]) : strlen(argv[i]);
+    if (length < SHORTEST || strncmp(argv[i], "--config", length) != 0)
+        return NULL;
+    return equals != NULL ? equals + 1 : i + 1 < argc ? argv[i + 1] : NULL;
+}
+
+static bool add_all(cli_config_t *config, int argc, char **argv)
+{
+    for (int i = 0; i < argc; i++) {
+        if (!add(config, strdup(argv[i])))
+            return false;
+    }
+    return true;
 }
 
 int cli_config_read(cli_config_t *config, const struct option *options, int argc, char **argv)
 {
+    cli_config_t maps = {0};
     *config = (cli_config_t){0};
-    int status = add(config, strdup(argv[0])) ? CLI_OK : cli_fail("out of memory");
+    int status = add_all(config, 1, argv) ? CLI_OK : cli_fail("out of memory");
     for (int i = 1; status == CLI_OK && i < argc && strcmp(argv[i], "--") != 0; i++) {
         const char *path = config_at(argc, argv, i);
         if (path != NULL)
-            status = read_file(config, options, path);
+            status = read_file(config, &maps, options, path);
     }
-    for (int i = 1; status == CLI_OK && i < argc; i++) {
-        if (!add(config, strdup(argv[i])))
-            status = cli_fail("out of memory");
-    }
+    if (status == CLI_OK &&
+        !(add_all(config, argc - 1, argv + 1) && add_all(config, maps.argc, maps.argv)))
+        status = cli_fail("out of memory");
+    cli_config_free(&maps);
     if (status != CLI_OK)
         cli_config_free(config);
     return status;

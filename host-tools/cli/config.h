@@ -1,7 +1,8 @@
 /* Options from an INI file (--config FILE), as if they stood on the command line before the others.
  *
  * A key is an option's long name and its value the option's; 'yes' gives an option that needs no
- * value and 'no' leaves it out; 'map = FILE' names a map. Sections only group.
+ * value and 'no' leaves it out; 'map = FILE' names a map. Sections only group; what follows ' ;' is
+ * a comment. A line may have 198 characters.
  */
 #ifndef YB_CLI_CONFIG_H
 #define YB_CLI_CONFIG_H

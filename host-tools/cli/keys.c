@@ -1,5 +1,6 @@
 #include "keys.h"
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <termios.h>
@@ -13,7 +14,7 @@ const char cli_keys_help[] = "  left, right         turn the camera\n"
                              "  s, l                shadows, contour lines: on or off\n"
                              "  q                   end\n";
 
-static struct termios before;
+static struct termios before, now;
 static bool changed;
 
 yb_act_t cli_keys_act(int key)
@@ -49,18 +50,36 @@ void cli_keys_close(void)
     changed = false;
 }
 
+/* In the background the terminal is somebody else's. */
+static bool in_front(void)
+{
+    return tcgetpgrp(STDIN_FILENO) == getpgrp();
+}
+
+/* After a stop (Ctrl-Z) the shell has set the terminal as it likes it. */
+static void on_continue(int signal)
+{
+    (void)signal;
+    if (changed && in_front())
+        (void)tcsetattr(STDIN_FILENO, TCSANOW, &now);
+}
+
 int cli_keys_open(void)
 {
     static bool registered;
-    if (isatty(STDIN_FILENO) == 0 || tcgetattr(STDIN_FILENO, &before) != 0)
+    const struct sigaction again = {.sa_handler = on_continue, .sa_flags = SA_RESTART};
+    const struct sigaction ignore = {.sa_handler = SIG_IGN};
+    if (isatty(STDIN_FILENO) == 0 || !in_front() || tcgetattr(STDIN_FILENO, &before) != 0)
         return -1;
-    struct termios now = before;
+    now = before;
     now.c_lflag &= (tcflag_t) ~(ICANON | ECHO);
     now.c_cc[VMIN] = 0;
     now.c_cc[VTIME] = 0;
     if (!registered)
         registered = atexit(cli_keys_close) == 0;
-    if (!registered || tcsetattr(STDIN_FILENO, TCSANOW, &now) != 0)
+    /* Restoring the terminal from the background must not stop us. */
+    if (!registered || sigaction(SIGTTOU, &ignore, NULL) != 0 ||
+        sigaction(SIGCONT, &again, NULL) != 0 || tcsetattr(STDIN_FILENO, TCSANOW, &now) != 0)
         return -1;
     changed = true;
     return STDIN_FILENO;

@@ -1,5 +1,5 @@
-/* Keys of the terminal, each as it is pressed; only if the standard input is one. The terminal is
- * as it was again after cli_keys_close, and when the program ends by exit. */
+/* Keys of the terminal, each as it is pressed; only if the standard input is one, and ours to read.
+ * It is as it was again after cli_keys_close, and when the program ends by exit. */
 #ifndef YB_CLI_KEYS_H
 #define YB_CLI_KEYS_H
 

@@ -21,14 +21,15 @@ const char cli_play_help[] =
     "  --slide SECONDS     the next map after so many seconds\n"
     "  --fps N             at most N frames a second, 0.01 to 1000 (default 30)\n"
     "  --frames N          end after N frames\n"
-    "  --brightness N      percent; a backlight only knows on and off\n"
+    "  --brightness N      percent, of an OLED; a backlight only knows on and off\n"
     "  --invert            light for dark\n"
     "  --whole             send every frame whole, not only what changed\n"
     "  --stats             tell every second on the standard error how many frames a second and\n"
     "                      bytes a frame there were, and in the end the sum on the standard "
     "output\n"
     "  --config FILE       options from an INI file, one a line: 'panel = st7789', 'orbit = yes',\n"
-    "                      'sun = 315 30', 'map = fuji.yb'; those of the command line go first\n";
+    "                      'sun = 315 30', 'map = fuji.yb'; the command line overrides them, maps\n"
+    "                      and buttons add up\n";
 
 cli_play_t cli_play_default(void)
 {
@@ -182,6 +183,20 @@ void cli_play_sum(const cli_play_t *play, const cli_played_t *played)
            100 * bytes / yb_panel_frame_bytes(play->panel));
 }
 
+bool cli_play_start(const cli_play_t *play, yb_outlet_t *outlet)
+{
+    const uint8_t level = (uint8_t)(play->brightness * 255 / 100);
+    return yb_outlet_start(outlet) &&
+           (play->brightness < 0 || yb_outlet_set_brightness(outlet, level)) &&
+           (!play->invert || yb_outlet_invert(outlet, true));
+}
+
+typedef enum {
+    WAIT_OVER,
+    WAIT_QUIT,
+    WAIT_LOST
+} wait_end_t;
+
 /* False: the bus failed. */
 static bool show_frame(const cli_play_t *play, const cli_stage_t *stage, yb_player_t *player,
                        cli_played_t *played, double now_s)
@@ -197,25 +212,37 @@ static bool show_frame(const cli_play_t *play, const cli_stage_t *stage, yb_play
     return true;
 }
 
-/* Until the next frame is due and differs from the one before. */
-static double seconds_left(yb_player_t *player, double due_s)
+/* Until the next frame is due and, unless frames are counted, differs from the one before. */
+static double seconds_left(const cli_play_t *play, const cli_stage_t *stage, yb_player_t *player,
+                           double due_s)
 {
     const double now_s = seconds();
-    return fmax(due_s - now_s, yb_player_still_s(player, now_s));
+    if (stage->hurry)
+        return 0;
+    return play->frames > 0 ? due_s - now_s : fmax(due_s - now_s, yb_player_still_s(player, now_s));
 }
 
-/* Waits for the time of the next frame, or for what changes it; false: the end is wanted. */
-static bool wait_until(const cli_stage_t *stage, yb_player_t *player, double due_s)
+/* While nothing is sent, a panel that must hear from us tells whether the bus is well. */
+static double longest_wait_s(const cli_play_t *play)
+{
+    return play->panel->tick_ms > 0 ? 1 : 3600;
+}
+
+/* Waits for the time of the next frame, and does what is wanted until then. */
+static wait_end_t wait_until(const cli_play_t *play, const cli_stage_t *stage, yb_player_t *player,
+                             double due_s)
 {
     for (;;) {
-        const double left_s = stage->hurry ? 0 : seconds_left(player, due_s);
-        const int timeout_ms = isinf(left_s) ? -1 : (int)ceil(fmin(fmax(left_s, 0), 3600) * 1000);
-        const yb_act_t act = stage->wait(stage->context, player, timeout_ms);
+        const double left_s = fmax(seconds_left(play, stage, player, due_s), 0);
+        const double wait_s = fmin(left_s, longest_wait_s(play));
+        const yb_act_t act = stage->wait(stage->context, player, (int)ceil(wait_s * 1000));
         if (act == YB_ACT_QUIT || *stage->stop)
-            return false;
+            return WAIT_QUIT;
+        if (!yb_outlet_well(stage->outlet))
+            return WAIT_LOST;
         yb_player_act(player, act);
-        if (stage->hurry ? act == YB_ACT_NONE : seconds_left(player, due_s) <= 0)
-            return true;
+        if (act == YB_ACT_NONE && left_s <= 0)
+            return WAIT_OVER;
     }
 }
 
@@ -237,8 +264,9 @@ cli_play_end_t cli_play_run(const cli_play_t *play, const cli_stage_t *stage, yb
             return CLI_PLAY_DONE;
         /* A late frame does not make the next ones hurry. */
         due_s = fmax(due_s + 1 / play->fps, seconds());
-        if (!wait_until(stage, player, due_s))
-            return CLI_PLAY_DONE;
+        const wait_end_t end = wait_until(play, stage, player, due_s);
+        if (end != WAIT_OVER)
+            return end == WAIT_LOST ? CLI_PLAY_BUS_LOST : CLI_PLAY_DONE;
     }
     return CLI_PLAY_DONE;
 }

@@ -63,6 +63,9 @@ int cli_play_check(cli_play_t *play);
 /* A player of these maps. NULL: it has been said why not. */
 yb_player_t *cli_play_player(const cli_play_t *play, yb_map_list_t *list);
 
+/* Starts the display, with the brightness that is wanted. */
+bool cli_play_start(const cli_play_t *play, yb_outlet_t *outlet);
+
 /* Fewer rows than the screen, so that some are drawn while some are sent. */
 uint16_t cli_play_band_rows(const cli_play_t *play);
 
@@ -70,7 +73,7 @@ uint16_t cli_play_band_rows(const cli_play_t *play);
 typedef struct {
     void *context;
     yb_outlet_t *outlet; /* started */
-    /* What is wanted next, YB_ACT_NONE after so many milliseconds (negative: for ever). */
+    /* What is wanted next, YB_ACT_NONE after so many milliseconds. */
     yb_act_t (*wait)(void *context, yb_player_t *player, int timeout_ms);
     /* A frame is on the display; false ends the play. NULL: nobody asks. */
     bool (*shown)(void *context);

@@ -35,6 +35,7 @@ enum {
     OPTION_HELP,
 
     RETRY_MOST_S = 60,
+    LOOK_MS = 1000, /* for a folder that is gone */
 };
 
 static const struct option options[] = {{"bus", required_argument, NULL, OPTION_BUS},
@@ -84,7 +85,7 @@ static void help(void)
         "                     --cs LINE --dc LINE\n"
         "\n"
         "Shows maps on a real SPI panel of this machine until a signal or a key ends it; then the\n"
-        "panel goes dark. A folder's codes are all shown, and those that come later. MAP.yb may\n"
+        "panel is blank. A folder's codes are all shown, and those that come later. MAP.yb may\n"
         "be - for the standard input.\n"
         "\n"
         "  --bus spidev        the panel hangs on an SPI controller of the kernel's\n"
@@ -104,7 +105,8 @@ static void help(void)
         "  --retry             if the panel cannot be reached, try again after 1, 2, 4 … 60\n"
         "                      seconds; else exit with code 3\n"
         "  --keep              leave the last picture on the panel at the end\n"
-        "  --once              the same as --frames 1 --keep\n"
+        "  --once              one frame, which stays on the panel; exit code 1 if there is no "
+        "map\n"
         "  --help              this text\n",
         stdout);
     fputs(cli_play_help, stdout);
@@ -247,8 +249,7 @@ static int check(request_t *request)
     return CLI_OK;
 }
 
-/* ---- Signals: the flag stops a frame between two bands, the pipe ends a wait ------------------
- */
+/* ---- Signals: the flag stops a frame between two bands, the pipe ends a wait ----------------- */
 
 static volatile int stop;
 static int wake[2] = {-1, -1};
@@ -262,38 +263,45 @@ static void on_signal(int signal)
     errno = before;
 }
 
+/* Those that end a program; but under nohup a terminal that goes ends nothing. */
 static bool catch_signals(void)
 {
-    struct sigaction action = {.sa_handler = on_signal};
-    sigemptyset(&action.sa_mask);
-    return pipe(wake) == 0 && fcntl(wake[1], F_SETFL, O_NONBLOCK) == 0 &&
-           sigaction(SIGINT, &action, NULL) == 0 && sigaction(SIGTERM, &action, NULL) == 0 &&
-           sigaction(SIGHUP, &action, NULL) == 0;
+    static const int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+    const struct sigaction action = {.sa_handler = on_signal};
+    const struct sigaction ignore = {.sa_handler = SIG_IGN};
+    struct sigaction before;
+    bool good = pipe(wake) == 0 && fcntl(wake[1], F_SETFL, O_NONBLOCK) == 0 &&
+                sigaction(SIGPIPE, &ignore, NULL) == 0;
+    for (size_t i = 0; good && i < sizeof(ends) / sizeof(ends[0]); i++)
+        good = sigaction(ends[i], NULL, &before) == 0 &&
+               ((ends[i] == SIGHUP && before.sa_handler == SIG_IGN) ||
+                sigaction(ends[i], &action, NULL) == 0);
+    return good;
 }
 
-/* ---- The panel --------------------------------------------------------------------------------
- */
+/* ---- The panel ------------------------------------------------------------------------------- */
 
 static void leave(scene_t *scene, bool dark)
 {
     if (scene->outlet != NULL && dark) {
-        (void)yb_outlet_sleep(scene->outlet, true);
+        (void)yb_outlet_blank(scene->outlet);
         (void)yb_linux_bus_backlight(scene->bus, false);
     }
     yb_outlet_close(scene->outlet);
     yb_linux_bus_close(scene->bus);
+    yb_linux_buttons_close(scene->buttons);
     scene->outlet = NULL;
     scene->bus = NULL;
+    scene->buttons = NULL;
 }
 
-static bool start(scene_t *scene)
+static bool open_buttons(scene_t *scene, char *why)
 {
-    const cli_play_t *play = &scene->request->play;
-    const uint8_t level = (uint8_t)(play->brightness * 255 / 100);
-    return yb_outlet_start(scene->outlet) &&
-           (play->brightness < 0 || yb_outlet_set_brightness(scene->outlet, level)) &&
-           (!play->invert || yb_outlet_invert(scene->outlet, true)) &&
-           yb_linux_bus_backlight(scene->bus, play->brightness != 0);
+    const request_t *request = scene->request;
+    if (request->buttons > 0)
+        scene->buttons = yb_linux_buttons_open(
+            request->wiring.chip, (const char *const *)request->lines, request->buttons, why);
+    return request->buttons == 0 || scene->buttons != NULL;
 }
 
 /* False: it has been said why not. */
@@ -301,16 +309,19 @@ static bool reach(scene_t *scene)
 {
     const cli_play_t *play = &scene->request->play;
     char why[YB_LINUX_ERROR_BYTES];
-    scene->bus = yb_linux_bus_open(&scene->request->wiring, play->panel, why);
+    if (open_buttons(scene, why))
+        scene->bus = yb_linux_bus_open(&scene->request->wiring, play->panel, why);
     if (scene->bus == NULL) {
         (void)cli_fail("%s", why);
+        leave(scene, false);
         return false;
     }
     scene->outlet = yb_outlet_open(play->panel, play->turn, yb_linux_bus_panel(scene->bus),
                                    cli_play_band_rows(play), NULL);
     if (scene->outlet == NULL)
         (void)cli_fail("out of memory");
-    else if (start(scene))
+    else if (cli_play_start(play, scene->outlet) &&
+             yb_linux_bus_backlight(scene->bus, play->brightness != 0))
         return true;
     else
         (void)cli_fail("%s", yb_linux_bus_error(scene->bus));
@@ -318,14 +329,14 @@ static bool reach(scene_t *scene)
     return false;
 }
 
-/* ---- What happens while a frame is shown ------------------------------------------------------
- */
+/* ---- What happens while a frame is shown ----------------------------------------------------- */
 
 static yb_act_t button_act(scene_t *scene)
 {
     const int pressed = yb_linux_buttons_read(scene->buttons);
     if (pressed == -2) {
-        (void)cli_fail("the buttons' GPIO chip is gone: they do nothing from now on");
+        (void)cli_fail(
+            "the buttons' GPIO chip is gone: they do nothing until the panel is reached anew");
         yb_linux_buttons_close(scene->buttons);
         scene->buttons = NULL;
     }
@@ -340,10 +351,13 @@ static yb_act_t wait_for(void *context, yb_player_t *player, int timeout_ms)
                            {.fd = yb_map_list_fd(scene->list), .events = POLLIN},
                            {.fd = buttons, .events = POLLIN},
                            {.fd = scene->keys, .events = POLLIN}};
-    if (poll(fds, sizeof(fds) / sizeof(fds[0]), timeout_ms) <= 0 || fds[0].revents != 0)
-        return YB_ACT_NONE;
-    if (fds[1].revents != 0)
+    const bool looks = yb_map_list_misses(scene->list);
+    const int most_ms = looks && timeout_ms > LOOK_MS ? LOOK_MS : timeout_ms;
+    const int ready = poll(fds, sizeof(fds) / sizeof(fds[0]), most_ms);
+    if (looks || (ready > 0 && fds[1].revents != 0))
         yb_player_update(player);
+    if (ready <= 0 || fds[0].revents != 0)
+        return YB_ACT_NONE;
     if (fds[2].revents != 0)
         return button_act(scene);
     if ((fds[3].revents & (POLLERR | POLLHUP)) != 0)
@@ -357,15 +371,20 @@ static uint64_t bytes_sent(void *context)
     return yb_linux_bus_bytes(scene->bus);
 }
 
-/* Sleeps, unless a signal comes. */
-static void pause_s(int seconds)
+/* Until the next try; false: the end is wanted. */
+static bool wait_to_retry(scene_t *scene, yb_player_t *player, int seconds)
 {
-    struct pollfd fd = {.fd = wake[0], .events = POLLIN};
-    (void)poll(&fd, 1, seconds * 1000);
+    fprintf(stderr, "yamabiko show: trying again in %d s\n", seconds);
+    for (int tenths = 10 * seconds; tenths > 0 && !stop; tenths--) {
+        const yb_act_t act = wait_for(scene, player, 100);
+        if (act == YB_ACT_QUIT)
+            return false;
+        yb_player_act(player, act);
+    }
+    return !stop;
 }
 
-/* ---- The show ---------------------------------------------------------------------------------
- */
+/* ---- The show -------------------------------------------------------------------------------- */
 
 static int play_on(scene_t *scene, yb_player_t *player)
 {
@@ -394,8 +413,8 @@ static int play_on(scene_t *scene, yb_player_t *player)
             break;
         }
         delay_s = played.frames > before ? 1 : delay_s;
-        fprintf(stderr, "yamabiko show: trying again in %d s\n", delay_s);
-        pause_s(delay_s);
+        if (!wait_to_retry(scene, player, delay_s))
+            break;
         delay_s = delay_s * 2 < RETRY_MOST_S ? delay_s * 2 : RETRY_MOST_S;
     }
     cli_play_sum(&request->play, &played);
@@ -405,29 +424,20 @@ static int play_on(scene_t *scene, yb_player_t *player)
 static int run(const request_t *request, char **maps, size_t count)
 {
     yb_error_t error;
-    char why[YB_LINUX_ERROR_BYTES];
     scene_t scene = {.request = request, .keys = -1};
-    yb_player_t *player = NULL;
     int status = CLI_FAILED;
     if (!catch_signals())
         return cli_fail("cannot catch signals: %s", strerror(errno));
     scene.list = yb_map_list_open(maps, count, &error);
     if (scene.list == NULL)
         return cli_fail("%s", error.text);
-    if (request->buttons > 0)
-        scene.buttons = yb_linux_buttons_open(
-            request->wiring.chip, (const char *const *)request->lines, request->buttons, why);
-    if (request->buttons > 0 && scene.buttons == NULL)
-        status = cli_fail("%s", why);
-    else
-        player = cli_play_player(&request->play, scene.list);
+    yb_player_t *player = cli_play_player(&request->play, scene.list);
     if (player != NULL) {
         scene.keys = request->once ? -1 : cli_keys_open();
         status = play_on(&scene, player);
         cli_keys_close();
     }
     yb_player_free(player);
-    yb_linux_buttons_close(scene.buttons);
     yb_map_list_close(scene.list);
     return status;
 }

@@ -11,6 +11,7 @@
 #include <turntable.h>
 #include <window.h>
 
+#include "code_file.h"
 #include "config.h"
 #include "keys.h"
 #include "output.h"
@@ -54,7 +55,7 @@ typedef struct {
     yb_recorder_t recorder;
     const yb_panel_bus_t *bus; /* that of the wires, or the recorder's */
     yb_map_list_t *list;
-    yb_window_t *window;        /* NULL: headless */
+    yb_sim_window_t *window;    /* NULL: headless */
     yb_picture_t picture;       /* the last one, as it was shown */
     uint64_t real_ns, wires_ns; /* clocks of the desktop and of the wires, when they were even */
     int shots;
@@ -148,7 +149,7 @@ static int check_handheld(const request_t *request, size_t maps)
         return cli_usage("the handheld's slot holds one map; several need a --panel");
     if (play->view.given != 0 || play->turn != YB_TURN_0 || play->orbit_deg != 0 ||
         play->sun_deg != 0 || play->slide_s != 0 || play->brightness >= 0 || play->invert ||
-        play->whole)
+        play->whole || play->stats)
         return cli_usage("the handheld has a view of its own: that option needs a --panel");
     return CLI_OK;
 }
@@ -159,6 +160,9 @@ static int check(request_t *request, size_t maps)
     const bool handheld = request->play.panel == NULL;
     if (!handheld && maps == 0)
         return cli_usage("name a code, MAP.yb, or a folder of them");
+    if (request->png != NULL && strcmp(request->png, "-") == 0 && (handheld || request->play.stats))
+        return cli_usage("'--png -' is for a --panel without --stats: what else is told would "
+                         "stand in the picture");
     const int status = handheld ? check_handheld(request, maps) : cli_play_check(&request->play);
     if (status != CLI_OK)
         return status;
@@ -168,8 +172,7 @@ static int check(request_t *request, size_t maps)
     return CLI_OK;
 }
 
-/* ---- The picture ------------------------------------------------------------------------------
- */
+/* ---- The picture ----------------------------------------------------------------------------- */
 
 static bool fail(scene_t *scene, const char *why)
 {
@@ -226,8 +229,7 @@ static void take_shot(scene_t *scene)
         fprintf(stderr, "yamabiko sim: wrote %s\n", path);
 }
 
-/* ---- Time: the model's runs ahead, the window waits for it ------------------------------------
- */
+/* ---- Time: the model's runs ahead, the window waits for it ----------------------------------- */
 
 static uint64_t real_ns(void)
 {
@@ -258,12 +260,12 @@ static bool shown(void *context)
     if (!keep_picture(scene))
         return false;
     wait_for_bus(scene);
-    return yb_window_show(scene->window, scene->picture.samples, scene->picture.channels == 1) ||
+    return yb_sim_window_show(scene->window, scene->picture.samples,
+                              scene->picture.channels == 1) ||
            fail(scene, "the desktop is gone");
 }
 
-/* ---- Any panel --------------------------------------------------------------------------------
- */
+/* ---- Any panel ------------------------------------------------------------------------------- */
 
 static yb_act_t wait_for(void *context, yb_player_t *player, int timeout_ms)
 {
@@ -275,8 +277,8 @@ static yb_act_t wait_for(void *context, yb_player_t *player, int timeout_ms)
     if (scene->window == NULL)
         return YB_ACT_NONE;
     const int most_ms = yb_map_list_fd(scene->list) >= 0 ? LOOK_MS : 60000;
-    const int key = yb_window_wait(scene->window,
-                                   timeout_ms >= 0 && timeout_ms < most_ms ? timeout_ms : most_ms);
+    const int key = yb_sim_window_wait(
+        scene->window, timeout_ms >= 0 && timeout_ms < most_ms ? timeout_ms : most_ms);
     if (key == YB_KEY_SHOT)
         take_shot(scene);
     return scene->failed ? YB_ACT_QUIT : cli_keys_act(key);
@@ -292,14 +294,6 @@ static uint64_t wires_ms(void *context)
 {
     const scene_t *scene = context;
     return scene->wires.nanoseconds / 1000000;
-}
-
-static bool set_up(const cli_play_t *play, yb_outlet_t *outlet)
-{
-    return yb_outlet_start(outlet) &&
-           (play->brightness < 0 ||
-            yb_outlet_set_brightness(outlet, (uint8_t)(play->brightness * 255 / 100))) &&
-           (!play->invert || yb_outlet_invert(outlet, true));
 }
 
 static void play_maps(scene_t *scene, char **maps, size_t count)
@@ -326,7 +320,7 @@ static void play_maps(scene_t *scene, char **maps, size_t count)
                                .hurry = scene->window == NULL};
     if (player == NULL || outlet == NULL)
         fail(scene, "out of memory");
-    else if (!set_up(play, outlet) ||
+    else if (!cli_play_start(play, outlet) ||
              cli_play_run(play, &stage, player, &played) == CLI_PLAY_BUS_LOST)
         fail(scene, yb_panel_model_error(scene->wires.model));
     yb_outlet_close(outlet);
@@ -337,8 +331,7 @@ static void play_maps(scene_t *scene, char **maps, size_t count)
     cli_play_sum(play, &played);
 }
 
-/* ---- The handheld -----------------------------------------------------------------------------
- */
+/* ---- The handheld ---------------------------------------------------------------------------- */
 
 typedef struct {
     scene_t *scene;
@@ -374,7 +367,7 @@ static bool next_key(handheld_t *handheld, int timeout_ms)
     scene_t *scene = handheld->scene;
     if (scene->window == NULL)
         return true;
-    const int key = yb_window_wait(scene->window, timeout_ms);
+    const int key = yb_sim_window_wait(scene->window, timeout_ms);
     if (key == YB_KEY_SHOT)
         take_shot(scene);
     if (key > 0 && key < 0x80)
@@ -418,20 +411,20 @@ static void play_handheld(scene_t *scene, const char *map)
                                       .slot_bytes = sizeof(slot),
                                       .built_in = yb_built_in_map,
                                       .built_in_bytes = yb_built_in_map_bytes};
-    FILE *file = map != NULL ? fopen(map, "rb") : NULL;
-    if (map != NULL && (file == NULL || fread(slot, 1, sizeof(slot), file) == 0)) {
-        char why[512];
-        snprintf(why, sizeof(why), "%s cannot be read", map);
-        fail(scene, why);
-    }
-    if (file != NULL)
-        fclose(file);
+    yb_error_t error;
+    yb_code_file_t *file = map != NULL ? yb_code_file_read(map, &error) : NULL;
+    if (map != NULL && file == NULL)
+        fail(scene, error.text);
+    else if (file != NULL && file->size > sizeof(slot))
+        fail(scene, "the map is larger than the handheld's slot");
+    else if (file != NULL)
+        memcpy(slot, file->bytes, file->size);
+    yb_code_file_free(file);
     if (!scene->failed)
         run_handheld(&handheld, &port);
 }
 
-/* ---- The verb ---------------------------------------------------------------------------------
- */
+/* ---- The verb -------------------------------------------------------------------------------- */
 
 static bool open_window(scene_t *scene)
 {
@@ -440,8 +433,8 @@ static bool open_window(scene_t *scene)
     const yb_screen_t screen = yb_outlet_screen(scene->wires.panel, request->play.turn);
     if (is_headless(request))
         return true;
-    scene->window = yb_window_open(scene->wires.panel->title, screen.width, screen.height,
-                                   (int)request->scale, request->full_screen, why);
+    scene->window = yb_sim_window_open(scene->wires.panel->title, screen.width, screen.height,
+                                       (int)request->scale, request->full_screen, why);
     scene->real_ns = real_ns();
     return scene->window != NULL || fail(scene, why);
 }
@@ -495,7 +488,7 @@ static int run(const request_t *request, char **maps, size_t count)
     else
         play(&scene, maps, count);
     yb_picture_free(&scene.picture);
-    yb_window_close(scene.window);
+    yb_sim_window_close(scene.window);
     yb_model_bus_close(&scene.wires);
     return scene.failed ? CLI_FAILED : CLI_OK;
 }

@@ -18,8 +18,8 @@
 
 typedef struct yb_map_list yb_map_list_t;
 
-/* NULL with a sentence if a path is neither a file nor a folder that can be read, or if the files
- * are none and no folder is watched that might get some. "-" stays as it is. */
+/* The paths must stay as they are. NULL with a sentence if one is neither a file nor a folder that
+ * can be read, or if "-", the standard input, is not the only one. */
 yb_map_list_t *yb_map_list_open(char *const *paths, size_t count, yb_error_t *error);
 void yb_map_list_close(yb_map_list_t *list);
 
@@ -27,6 +27,9 @@ size_t yb_map_list_count(const yb_map_list_t *list);
 
 /* The path of one; until the next update. NULL beyond the last. */
 const char *yb_map_list_at(const yb_map_list_t *list, size_t index);
+
+/* Whether something may be told of a map that cannot be shown: once, until its file changes. */
+bool yb_map_list_tell(yb_map_list_t *list, size_t index);
 
 /* A descriptor that can be read when a folder has changed; -1: there is none. */
 int yb_map_list_fd(const yb_map_list_t *list);
@@ -36,6 +39,9 @@ typedef enum {
     YB_MAPS_OTHERS, /* others came or went */
     YB_MAPS_THIS    /* this one's file was written or is gone */
 } yb_maps_change_t;
+
+/* A folder is gone: update now and then, because nothing will tell when it is there again. */
+bool yb_map_list_misses(const yb_map_list_t *list);
 
 /* Looks at the folders again, if anything has happened there. *index follows the map that it stood
  * for, or, if that is gone, stays where the next one is. */

@@ -223,9 +223,24 @@ bool yb_outlet_sleep(yb_outlet_t *outlet, bool asleep)
 {
     pthread_mutex_lock(&outlet->mutex);
     const bool good = yb_display_sleep(&outlet->display, asleep);
-    outlet->ticks = outlet->ticks && good && !asleep;
+    outlet->ticks = outlet->ticks && good; /* asleep or not */
     pthread_mutex_unlock(&outlet->mutex);
     return good;
+}
+
+bool yb_outlet_blank(yb_outlet_t *outlet)
+{
+    /* A start clears. */
+    return outlet->display.panel->driver->sleep != NULL ? yb_outlet_sleep(outlet, true)
+                                                        : yb_outlet_start(outlet);
+}
+
+bool yb_outlet_well(yb_outlet_t *outlet)
+{
+    pthread_mutex_lock(&outlet->mutex);
+    const bool well = !outlet->failed;
+    pthread_mutex_unlock(&outlet->mutex);
+    return well;
 }
 
 bool yb_outlet_set_brightness(yb_outlet_t *outlet, uint8_t level)

@@ -48,6 +48,12 @@ bool yb_outlet_sleep(yb_outlet_t *outlet, bool asleep);
 bool yb_outlet_set_brightness(yb_outlet_t *outlet, uint8_t level);
 bool yb_outlet_invert(yb_outlet_t *outlet, bool inverted);
 
+/* Nothing is seen any more: the display is off or, where it cannot be switched off, cleared. */
+bool yb_outlet_blank(yb_outlet_t *outlet);
+
+/* False: the bus has failed, also while no frames were sent. */
+bool yb_outlet_well(yb_outlet_t *outlet);
+
 /* The next frame is sent whole. */
 void yb_outlet_refresh(yb_outlet_t *outlet);
 

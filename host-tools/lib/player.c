@@ -68,6 +68,14 @@ yb_player_t *yb_player_new(const yb_play_t *play, yb_map_list_t *list)
         player->play.view.sun_deg[0] = STANDARD_SUN_AZIMUTH;
         player->play.view.sun_deg[1] = STANDARD_SUN_ELEVATION;
     }
+    /* On foot and in the air the camera looks north unless it is told otherwise; then it can turn.
+     */
+    if ((yb_view_options_given(&play->view, YB_OPTION_WALK) ||
+         yb_view_options_given(&play->view, YB_OPTION_FLY)) &&
+        !yb_view_options_given(&play->view, YB_OPTION_AZIMUTH)) {
+        player->play.view.azimuth_deg = 0;
+        player->play.view.given |= 1u << (YB_OPTION_AZIMUTH - YB_OPTION_SIZE);
+    }
     player->frame = malloc(sizeof(*player->frame));
     player->depth =
         malloc((size_t)play->view.screen.width * play->band_rows * sizeof(*player->depth));
@@ -100,18 +108,21 @@ static void go_to(yb_player_t *player, size_t index)
     player->changed = true;
 }
 
-/* Forwards by so many maps, round and round. */
+/* Forwards by so many maps, round and round. The only one is not read again: it may be the standard
+ * input. */
 static void go_on(yb_player_t *player, size_t by)
 {
     const size_t count = yb_map_list_count(player->list);
-    if (count > 0)
+    if (count > 1 || (count > 0 && player->index > 0))
         go_to(player, (player->index + by) % count);
 }
 
-/* 1, 2 or 5 times a power of ten, so that there are at most LINES_MOST. */
+/* 1, 2 or 5 times a power of ten, so that there are at most LINES_MOST, and the engine takes it. */
 static double round_interval_m(const yb_map_t *map)
 {
-    const double least = (map->high_q8 - map->low_q8) / 256.0 * yb_map_cell_m(map) / LINES_MOST;
+    const double cell_m = yb_map_cell_m(map);
+    const double few_m = (map->high_q8 - map->low_q8) / 256.0 * cell_m / LINES_MOST;
+    const double least = fmax(few_m, ceil(cell_m * YB_LEAST_CONTOUR_Q8 / 256));
     const double power = pow(10, floor(log10(fmax(least, 0.01))));
     const double steps[] = {1, 2, 5, 10};
     size_t i = 0;
@@ -149,8 +160,8 @@ static bool prepare(yb_player_t *player, const char *path, yb_view_t *view, yb_e
     return true;
 }
 
-/* The first map from here on that can be drawn, or none. Those that failed are not tried again
- * until the list or the user brings us back to them. */
+/* The first map from here on that can be drawn, or none. When all have failed, they are not tried
+ * again until the list changes or the user acts. */
 static bool find_map(yb_player_t *player, yb_view_t *view)
 {
     const size_t count = yb_map_list_count(player->list);
@@ -160,7 +171,8 @@ static bool find_map(yb_player_t *player, yb_view_t *view)
             player->failures = 0;
             return true;
         }
-        player->play.tell(error.text);
+        if (yb_map_list_tell(player->list, player->index))
+            player->play.tell(error.text);
         player->failures++;
         go_on(player, 1);
     }
@@ -225,11 +237,13 @@ bool yb_player_draw(yb_player_t *player, double now_s, yb_outlet_t *outlet,
 void yb_player_act(yb_player_t *player, yb_act_t act)
 {
     const size_t count = yb_map_list_count(player->list);
-    player->changed = player->changed || (act != YB_ACT_NONE && act != YB_ACT_QUIT);
+    if (act == YB_ACT_NONE || act == YB_ACT_QUIT)
+        return;
+    player->changed = true;
+    player->failures = 0;
     switch (act) {
     case YB_ACT_NEXT:
     case YB_ACT_PREVIOUS:
-        player->failures = 0;
         go_on(player, act == YB_ACT_NEXT ? 1 : count - 1);
         break;
     case YB_ACT_LEFT:

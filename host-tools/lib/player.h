@@ -7,8 +7,8 @@
  *         yb_player_act(player, act);      what a user wants
  *     }
  *
- * A map that cannot be read or drawn is told once (in the player's `tell`) and passed over; while
- * there is none that can, the picture is black.
+ * A map that cannot be read or drawn is told (by `tell`, once until its file changes) and passed
+ * over; while there is none that can, the picture is black.
  */
 #ifndef YB_PLAYER_H
 #define YB_PLAYER_H
@@ -22,7 +22,7 @@ typedef enum {
     YB_ACT_NONE,
     YB_ACT_NEXT,     /* the next map */
     YB_ACT_PREVIOUS, /* the one before */
-    YB_ACT_LEFT,     /* the camera goes a 24th round */
+    YB_ACT_LEFT,     /* the camera goes a 24th round, or turns on foot and in the air */
     YB_ACT_RIGHT,
     YB_ACT_PAUSE,   /* or go on */
     YB_ACT_SHADOWS, /* on or off */

@@ -22,8 +22,7 @@ typedef struct {
     uint64_t time_ns; /* of a clock that nobody sets */
 } yb_gpiod_edge_t;
 
-/* ---- Chips ------------------------------------------------------------------------------------
- */
+/* ---- Chips ----------------------------------------------------------------------------------- */
 
 /* The chip behind a device file. NULL: errno says why, ENOTTY if it is something else. */
 yb_gpiod_chip_t *yb_gpiod_chip_open(const char *path);

@@ -21,8 +21,7 @@ struct yb_gpiod_group {
     int epoll; /* -1 for outputs */
 };
 
-/* ---- Chips ------------------------------------------------------------------------------------
- */
+/* ---- Chips ----------------------------------------------------------------------------------- */
 
 yb_gpiod_chip_t *yb_gpiod_chip_open(const char *path)
 {
@@ -78,8 +77,7 @@ bool yb_gpiod_chip_holder(yb_gpiod_chip_t *chip, unsigned line, char holder[YB_G
     return true;
 }
 
-/* ---- Groups -----------------------------------------------------------------------------------
- */
+/* ---- Groups ---------------------------------------------------------------------------------- */
 
 static yb_gpiod_group_t *group_new(yb_gpiod_chip_t *chip, const unsigned *lines, size_t count)
 {

@@ -24,8 +24,7 @@ struct yb_gpiod_group {
     unsigned lines[YB_GPIOD_GROUP_MAX];
 };
 
-/* ---- Chips ------------------------------------------------------------------------------------
- */
+/* ---- Chips ----------------------------------------------------------------------------------- */
 
 yb_gpiod_chip_t *yb_gpiod_chip_open(const char *path)
 {
@@ -92,8 +91,7 @@ bool yb_gpiod_chip_holder(yb_gpiod_chip_t *chip, unsigned line, char holder[YB_G
     return held;
 }
 
-/* ---- Groups -----------------------------------------------------------------------------------
- */
+/* ---- Groups ---------------------------------------------------------------------------------- */
 
 static enum gpiod_line_value level(int value)
 {

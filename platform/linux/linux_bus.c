@@ -33,7 +33,7 @@ struct yb_linux_bus {
     yb_gpiod_group_t *control; /* D/C, reset and backlight, those that are wired, in this order */
     int values[CONTROLS];      /* the levels of those in the group */
     int place[LINES];          /* of a control line in the group; -1: not wired */
-    uint64_t bytes;
+    _Atomic uint64_t bytes;    /* asked for while another thread sends */
     yb_panel_bus_t panel;
     char error[YB_LINUX_ERROR_BYTES];
 };
@@ -49,8 +49,7 @@ bool yb_wire_failed(const char *device, const char *doing, int why, char *error)
     return false;
 }
 
-/* ---- What panels call -------------------------------------------------------------------------
- */
+/* ---- What panels call ------------------------------------------------------------------------ */
 
 static bool set_control(yb_linux_bus_t *bus, int line, int value, const char *doing)
 {
@@ -105,8 +104,7 @@ static bool pull_reset(void *context)
     return true;
 }
 
-/* ---- Opening ----------------------------------------------------------------------------------
- */
+/* ---- Opening --------------------------------------------------------------------------------- */
 
 static bool refuse(char *error, const char *format, const char *panel, const char *line)
 {

@@ -38,8 +38,7 @@ void yb_lines_no_permission(const char *path, char *error)
                  (unsigned long)device.st_gid);
 }
 
-/* ---- Chips ------------------------------------------------------------------------------------
- */
+/* ---- Chips ----------------------------------------------------------------------------------- */
 
 static yb_gpiod_chip_t *no_chip(const char *name, const char *path, int why, char *error)
 {
@@ -122,8 +121,7 @@ yb_gpiod_chip_t *yb_lines_chip(const char *name, char *error)
     return chip != NULL ? chip : no_chip(name, path, errno, error);
 }
 
-/* ---- Lines ------------------------------------------------------------------------------------
- */
+/* ---- Lines ----------------------------------------------------------------------------------- */
 
 static bool find_line(yb_gpiod_chip_t *chip, yb_line_t *line, char *error)
 {

@@ -44,8 +44,7 @@ static size_t most_at_once(void)
     return most != 0 ? most : BUFSIZ_DEFAULT;
 }
 
-/* ---- Sending ----------------------------------------------------------------------------------
- */
+/* ---- Sending --------------------------------------------------------------------------------- */
 
 static bool send_some(spidev_wire_t *spidev, const uint8_t *bytes, size_t count, char *error)
 {
@@ -102,8 +101,7 @@ static void close_wire(yb_wire_t *wire)
     free(spidev);
 }
 
-/* ---- Opening ----------------------------------------------------------------------------------
- */
+/* ---- Opening --------------------------------------------------------------------------------- */
 
 static bool explain_open(const char *path, int why, char *error)
 {

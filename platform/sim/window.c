@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct yb_window {
+struct yb_sim_window {
     SDL_Window *window;
     SDL_Renderer *renderer;
     SDL_Texture *texture;
@@ -23,7 +23,7 @@ static int fitting_scale(int width, int height)
     return scale > 1 ? scale : 1;
 }
 
-static bool draw(yb_window_t *window)
+static bool draw(yb_sim_window_t *window)
 {
     return SDL_RenderClear(window->renderer) == 0 &&
            SDL_RenderCopy(window->renderer, window->texture, NULL, NULL) == 0 &&
@@ -45,7 +45,7 @@ static bool has_desktop(void)
     return false;
 }
 
-static bool make(yb_window_t *window, const char *title, int scale, bool full_screen)
+static bool make(yb_sim_window_t *window, const char *title, int scale, bool full_screen)
 {
     const Uint32 flags =
         SDL_WINDOW_RESIZABLE | (full_screen ? (Uint32)SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
@@ -66,10 +66,10 @@ static bool make(yb_window_t *window, const char *title, int scale, bool full_sc
            SDL_RenderSetIntegerScale(window->renderer, SDL_TRUE) == 0;
 }
 
-yb_window_t *yb_window_open(const char *title, int width, int height, int scale, bool full_screen,
-                            char *error)
+yb_sim_window_t *yb_sim_window_open(const char *title, int width, int height, int scale,
+                                    bool full_screen, char *error)
 {
-    yb_window_t *window = calloc(1, sizeof *window);
+    yb_sim_window_t *window = calloc(1, sizeof *window);
 
     if (window == NULL) {
         snprintf(error, YB_WINDOW_ERROR_BYTES, "out of memory");
@@ -81,11 +81,11 @@ yb_window_t *yb_window_open(const char *title, int width, int height, int scale,
         make(window, title, scale > 0 ? scale : fitting_scale(width, height), full_screen))
         return window;
     snprintf(error, YB_WINDOW_ERROR_BYTES, "no window can be opened here: %s", SDL_GetError());
-    yb_window_close(window);
+    yb_sim_window_close(window);
     return NULL;
 }
 
-bool yb_window_show(yb_window_t *window, const uint8_t *samples, bool grey)
+bool yb_sim_window_show(yb_sim_window_t *window, const uint8_t *samples, bool grey)
 {
     void *texture = NULL;
     int pitch = 0;
@@ -102,18 +102,13 @@ bool yb_window_show(yb_window_t *window, const uint8_t *samples, bool grey)
     return draw(window);
 }
 
-void yb_window_title(yb_window_t *window, const char *title)
-{
-    SDL_SetWindowTitle(window->window, title);
-}
-
-static void toggle_full_screen(yb_window_t *window)
+static void toggle_full_screen(yb_sim_window_t *window)
 {
     const bool full = (SDL_GetWindowFlags(window->window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
     (void)SDL_SetWindowFullscreen(window->window, full ? 0 : (Uint32)SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
-static int key_of(yb_window_t *window, SDL_Keycode key)
+static int key_of(yb_sim_window_t *window, SDL_Keycode key)
 {
     switch (key) {
     case SDLK_LEFT:
@@ -137,7 +132,7 @@ static int key_of(yb_window_t *window, SDL_Keycode key)
 }
 
 /* Characters come as text, so that layouts and shift are the desktop's affair. */
-static int key_in(yb_window_t *window, const SDL_Event *event)
+static int key_in(yb_sim_window_t *window, const SDL_Event *event)
 {
     switch (event->type) {
     case SDL_QUIT:
@@ -154,7 +149,7 @@ static int key_in(yb_window_t *window, const SDL_Event *event)
     }
 }
 
-int yb_window_wait(yb_window_t *window, int timeout_ms)
+int yb_sim_window_wait(yb_sim_window_t *window, int timeout_ms)
 {
     const Uint64 end = SDL_GetTicks64() + (Uint64)timeout_ms;
     SDL_Event event;
@@ -170,7 +165,7 @@ int yb_window_wait(yb_window_t *window, int timeout_ms)
     }
 }
 
-void yb_window_close(yb_window_t *window)
+void yb_sim_window_close(yb_sim_window_t *window)
 {
     if (window == NULL)
         return;

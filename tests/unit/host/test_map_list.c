@@ -36,16 +36,22 @@ static void files_stay_in_order(void **state)
     snprintf(two, sizeof(two), "%s", scratch_path("two.txt"));
     scratch_text(one, "1");
     scratch_text(two, "2");
-    yb_map_list_t *list = yb_map_list_open(paths, 3, &error);
+    yb_map_list_t *list = yb_map_list_open(paths, 2, &error);
     assert_non_null(list);
-    assert_int_equal(yb_map_list_count(list), 3);
+    assert_int_equal(yb_map_list_count(list), 2);
     assert_string_equal(name_of(list, 0), "two.txt");
     assert_string_equal(name_of(list, 1), "one.yb");
-    assert_string_equal(yb_map_list_at(list, 2), "-");
-    assert_null(yb_map_list_at(list, 3));
+    assert_null(yb_map_list_at(list, 2));
     assert_int_equal(yb_map_list_fd(list), -1);
     size_t index = 1;
     assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_SAME);
+    assert_true(yb_map_list_tell(list, 0));
+    assert_false(yb_map_list_tell(list, 0));
+    yb_map_list_close(list);
+    /* The standard input is read once, so it goes alone. */
+    assert_null(yb_map_list_open(paths, 3, &error));
+    list = yb_map_list_open(paths + 2, 1, &error);
+    assert_string_equal(yb_map_list_at(list, 0), "-");
     yb_map_list_close(list);
 }
 
@@ -77,16 +83,19 @@ static void folders_are_followed(void **state)
     assert_string_equal(name_of(list, index), "d.yb");
     assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_SAME);
 
-    /* Another comes before: the index follows. */
+    /* Another comes before: the index follows, and what was told is not told again. */
+    assert_true(yb_map_list_tell(list, 1));
     make(folder, "c.yb", "c");
     assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_OTHERS);
     assert_int_equal(index, 2);
     assert_string_equal(name_of(list, 1), "c.yb");
+    assert_false(yb_map_list_tell(list, 2));
 
     /* The shown one is written, and then goes. */
     make(folder, "d.yb", "again");
     assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_THIS);
     assert_string_equal(name_of(list, index), "d.yb");
+    assert_true(yb_map_list_tell(list, index));
     snprintf(path, sizeof(path), "%s/d.yb", folder);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_THIS);
@@ -102,6 +111,23 @@ static void folders_are_followed(void **state)
     make(folder, "e.yb", "e");
     assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_THIS);
     assert_string_equal(name_of(list, index), "e.yb");
+
+    /* A link comes; the folder itself goes and comes back. */
+    snprintf(path, sizeof(path), "%s/f.yb", folder);
+    assert_int_equal(symlink("e.yb", path), 0);
+    assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_OTHERS);
+    assert_int_equal(yb_map_list_count(list), 2);
+    assert_false(yb_map_list_misses(list));
+    snprintf(path, sizeof(path), "%s.old", folder);
+    assert_int_equal(rename(folder, path), 0);
+    assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_THIS);
+    assert_int_equal(yb_map_list_count(list), 0);
+    assert_true(yb_map_list_misses(list));
+    assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_SAME);
+    assert_int_equal(rename(path, folder), 0);
+    assert_int_equal(yb_map_list_update(list, &index), YB_MAPS_THIS);
+    assert_int_equal(yb_map_list_count(list), 2);
+    assert_false(yb_map_list_misses(list));
     yb_map_list_close(list);
 }
 

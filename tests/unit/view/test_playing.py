@@ -137,9 +137,12 @@ class Playing(Case):
         (self.folder / "first.yb").write_bytes(b"no code")
         thread = threading.Thread(target=put)
         thread.start()
-        # The first frame is black and stands; the second comes when there is a map.
-        self.good("sim", self.folder, "--panel", "ssd0323", "--frames", 2, SDL_VIDEODRIVER="dummy")
+        # Three frames a second and a half apart: the map comes between the first and the last.
+        done = self.good("sim", self.folder, "--panel", "ssd0323", "--frames", 3, "--fps", 0.7,
+                         SDL_VIDEODRIVER="dummy")
         thread.join()
+        self.assertEqual(done.stderr.count("first.yb"), 1, done.stderr)
+        self.assertNotIn("no map", done.stderr)
 
 
 class Config(Case):
@@ -174,11 +177,17 @@ class Config(Case):
                 (2, "line 2: 'colour' is no option here", "panel = ssd0323\ncolour = red\n"),
                 (2, "line 1 is neither", "panel\n"),
                 (2, "line 1: 'panel' needs a value", "panel =\n"),
+                (2, "line 1 is neither", "garbage\n\n\n\nbogus = 1\n"),
+                (2, "line 2: 'bogus'", "panel = ssd0323\nbogus = 1\ngarbage\n"),
+                (2, "line 2 is too long", "panel = ssd0323\nmap = " + 300 * "x" + "\n"),
                 (2, "line 1: 'whole' is either yes or no", "whole = perhaps\n"),
                 (2, "there is no panel 'x'", "panel = x\n"),
                 (2, "line 3: 'sun' needs 2 values", "panel = ssd0323\nmap = a\nsun = 3\n")):
             with self.subTest(text=text):
                 self.refused(code, sentence, "sim", "--config", self.ini(text))
+        self.refused(1, "./--stats", "sim", "--config", self.ini("panel = ssd0323\n  map = --stats\n"),
+                     "--frames", 1, "--png", os.devnull, "--force")
+        self.refused(2, "there is no panel 'x'", "sim", "--conf", self.ini("panel = x"))
         self.refused(1, "nowhere.ini", "sim", "--config", self.folder / "nowhere.ini")
 
 
@@ -196,7 +205,12 @@ class Handheld(Case):
     def test_options_that_it_has_not(self):
         self.refused(2, "view of its own", "sim", FUJI, "--azimuth", 3)
         self.refused(2, "view of its own", "sim", FUJI, "--orbit")
+        self.refused(2, "view of its own", "sim", FUJI, "--stats")
         self.refused(2, "one map", "sim", FUJI, DAVOS)
+        self.refused(2, "'--png -'", "sim", FUJI, "--frames", 1, "--png", "-")
+        broken = self.folder / "broken.yb"
+        broken.write_bytes(b"no code")
+        self.refused(1, "broken.yb", "sim", broken, "--frames", 1, "--png", os.devnull, "--force")
         self.refused(1, "nowhere.yb", "sim", "nowhere.yb", "--frames", 1, "--png", os.devnull,
                      "--force")
 
@@ -213,6 +227,24 @@ class Window(Case):
 
 
 class Wrong(Case):
+    def test_frames_are_counted(self):
+        # Also those that differ in nothing.
+        self.good("sim", FUJI, "--panel", "st7789", "--frames", 3, SDL_VIDEODRIVER="dummy")
+
+    def test_standard_input_is_read_once(self):
+        done = subprocess.run([YAMABIKO, "sim", "-", "--panel", "ssd0323", "--slide", "0.1",
+                               "--frames", "30", "--png", self.folder / "x.png"],
+                              input=FUJI.read_bytes(), capture_output=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.refused(1, "only map", "sim", "-", FUJI, "--panel", "ssd0323", "--frames", 1, "--png",
+                     os.devnull, "--force")
+
+    def test_pipes_in_folders_are_passed_over(self):
+        os.mkfifo(self.folder / "a.yb")
+        (self.folder / "b.yb").write_bytes(FUJI.read_bytes())
+        self.assertEqual(self.shown(self.folder, "--panel", "ssd0323"),
+                         self.rendered(FUJI, "--panel", "ssd0323"))
+
     def test_usage(self):
         wires = ("--bus", "gpiod", "--sck", 1, "--mosi", 2, "--cs", 3, "--dc", 4)
         for sentence, *words in (
