@@ -31,10 +31,10 @@ static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], i
                           int32_t *along_y)
 {
     /* Clockwise on the screen, where y points down: the area is positive. */
-    int32_t x1 = p[2]->x_q4 - p[0]->x_q4;
-    int32_t y1 = p[2]->y_q4 - p[0]->y_q4;
-    int32_t x2 = p[1]->x_q4 - p[0]->x_q4;
-    int32_t y2 = p[1]->y_q4 - p[0]->y_q4;
+    int32_t x1 = (int32_t)p[2]->x_q4 - p[0]->x_q4;
+    int32_t y1 = (int32_t)p[2]->y_q4 - p[0]->y_q4;
+    int32_t x2 = (int32_t)p[1]->x_q4 - p[0]->x_q4;
+    int32_t y2 = (int32_t)p[1]->y_q4 - p[0]->y_q4;
     uint32_t all = (uint32_t)(fix_abs(x1) | fix_abs(y1) | fix_abs(x2) | fix_abs(y2));
     int shift = 0;
     while (all >> shift >= 1u << 13)

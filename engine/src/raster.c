@@ -56,8 +56,8 @@ static void trace(const yb_spot_t *a, const yb_spot_t *b, int32_t first, int32_t
     if (rows <= 0)
         return;
     to += y - first;
-    int32_t dx = b->x_q4 - a->x_q4;
-    int32_t dy = b->y_q4 - a->y_q4;
+    int32_t dx = (int32_t)b->x_q4 - a->x_q4;
+    int32_t dy = (int32_t)b->y_q4 - a->y_q4;
     int32_t x = raster_pixel(a->x_q4);
     /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
     raster_area_t side =

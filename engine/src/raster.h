@@ -66,9 +66,10 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
     top = raster_pixel(c->y_q4 < top ? c->y_q4 : top);
     bottom = raster_pixel(c->y_q4 > bottom ? c->y_q4 : bottom);
     /* y points down: a front, counter-clockwise with y up, is negative here. */
-    if (top >= bottom || (raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
-                                 (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4) >=
-                             0)
+    if (top >= bottom ||
+        ((raster_area_t)b->x_q4 - a->x_q4) * ((raster_area_t)c->y_q4 - a->y_q4) -
+                ((raster_area_t)b->y_q4 - a->y_q4) * ((raster_area_t)c->x_q4 - a->x_q4) >=
+            0)
         return RASTER_NOTHING;
     int32_t left = a->x_q4 < b->x_q4 ? a->x_q4 : b->x_q4;
     int32_t right = a->x_q4 < b->x_q4 ? b->x_q4 : a->x_q4;

@@ -68,7 +68,6 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
 {
     yb_level_t *level = frame->level;
     const yb_level_t *last = level + YB_MAX_LEVELS - 1;
-    (void)refine_splits(frame, part);
     int32_t stray = refine_stray(frame, part);
     yb_point_t from = *part->point[which];
     level->rest.point[0] = part->point[which == 2 ? 0 : which + 1];
@@ -76,15 +75,15 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     for (yb_level_t *at = level;;) {
         const yb_point_t *to = at->rest.point[0];
         yb_edge_t *edge = &at->rest.edge[0];
-        if (*edge >= REFINE_ASK)
-            *edge = refine_ask(frame, &from, to, *edge);
         bool split = *edge >= REFINE_ONCE && at != last;
         bool seen = (at != level && !split) || !hidden(frame, view, &from, to, stray);
         if (split && seen) {
             refine_middle(frame, &from, to, *edge, &at->middle);
-            *edge = refine_half(*edge);
+            bool ask = *edge >= REFINE_AGAIN;
+            yb_edge_t half = refine_half(*edge);
+            *edge = ask ? refine_ask(frame, &at->middle, to, half) : half;
             at[1].rest.point[0] = &at->middle;
-            at[1].rest.edge[0] = *edge;
+            at[1].rest.edge[0] = ask ? refine_ask(frame, &from, &at->middle, half) : half;
             at++;
             continue;
         }

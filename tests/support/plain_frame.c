@@ -25,7 +25,7 @@ yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge)
                                : (edge & 0xffff) | (yb_edge_t)(class + 4) << 16 | REFINE_ONCE;
 }
 
-const refine_view_t plain_view = {INT32_MIN, INT32_MAX, INT32_MIN, INT32_MAX, {{0, 0, 0, 0, 0}}};
+const refine_view_t plain_view = {-(1 << 20), -(1 << 20), 1 << 21, 1 << 21, {{0, 0, 0, 0, 0}}};
 
 /* With twice the room that its relief may need. Without this all that lies behind the eye would be
  * refined as if it touched it.
@@ -34,7 +34,8 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
 {
     yb_part_t whole = *part;
     for (int i = 0; i < 3; i++)
-        whole.edge[i] = plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]);
+        whole.edge[i] =
+            plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]) | REFINE_AGAIN;
     int64_t stray = 2 * (int64_t)refine_stray(frame, &whole) + 256;
     int64_t lift = (int64_t)abs(frame->depth_z) * frame->view.exaggerate_q8 >> 8;
     for (int i = 0; i < 3; i++) {
@@ -51,7 +52,7 @@ static void walk(walk_t *at, yb_part_t part, int used)
 {
     if (plain_behind(at->frame, &part))
         return;
-    if (used > YB_MAX_LEVELS - REFINE_PIECES || !refine_splits(at->frame, &part)) {
+    if (used > YB_MAX_LEVELS - REFINE_PIECES || !refine_splits(&part)) {
         at->count++;
         at->fn(at->context, part.point);
         return;
