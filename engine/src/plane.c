@@ -138,11 +138,12 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-void raster_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look,
+void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut)
 {
-    int32_t y = rows_first(raster, p);
-    int32_t end_y = rows_end(raster, p);
+    const yb_spot_t *const *p = shape->p;
+    int32_t y = fix_max(shape->top, raster->first_row);
+    int32_t end_y = fix_min(shape->bottom, raster->end_row);
     int32_t width = raster->screen->width;
     int32_t line = y - raster->first_row;
     uint16_t *depth = raster->band->depth + line * width;

@@ -346,13 +346,13 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
 
 /* Draws a triangle that a line crosses, of the shore or of a contour; false: none does. */
 static bool draw_lines(const yb_frame_t *frame, const raster_t *raster,
-                       const yb_point_t *const p[3], raster_look_t look, uint16_t pixel)
+                       const yb_point_t *const p[3], const raster_shape_t *shape,
+                       raster_look_t look, uint16_t pixel)
 {
     raster_cut_t cut;
     if (!shade_cut(frame, p, pixel, &cut))
         return false;
-    raster_plane(raster, (const yb_spot_t *const[3]){&p[0]->spot, &p[1]->spot, &p[2]->spot}, look,
-                 pixel, &cut);
+    raster_plane(raster, shape, look, pixel, &cut);
     return true;
 }
 
@@ -366,7 +366,8 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         draw_clipped(frame, walk->view, raster, p);
         return;
     }
-    raster_look_t look = raster_front(&a->spot, &b->spot, &c->spot);
+    raster_shape_t shape = {.p = {&a->spot, &b->spot, &c->spot}};
+    raster_look_t look = raster_front(&shape);
     if (look == RASTER_NOTHING)
         return;
     frame->stats.drawn++;
@@ -375,9 +376,9 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         return;
     }
     uint16_t pixel = shade_ground(frame, p);
-    if (frame->lines && draw_lines(frame, raster, p, look, pixel))
+    if (frame->lines && draw_lines(frame, raster, p, &shape, look, pixel))
         return;
-    raster_fill(raster, &a->spot, &b->spot, &c->spot, look, pixel);
+    raster_fill(raster, &shape, look, pixel);
 }
 
 static inline void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,

@@ -67,17 +67,4 @@ static inline uint16_t mean_near(const yb_spot_t *const p[3])
     return (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
 }
 
-/* The rows of the band that a triangle meets: the first, and the one after the last. */
-static inline int32_t rows_first(const raster_t *raster, const yb_spot_t *const p[3])
-{
-    int32_t top = fix_min(p[0]->y_q4, fix_min(p[1]->y_q4, p[2]->y_q4));
-    return fix_max(raster_pixel(top), raster->first_row);
-}
-
-static inline int32_t rows_end(const raster_t *raster, const yb_spot_t *const p[3])
-{
-    int32_t bottom = fix_max(p[0]->y_q4, fix_max(p[1]->y_q4, p[2]->y_q4));
-    return fix_min(raster_pixel(bottom), raster->end_row);
-}
-
 #endif

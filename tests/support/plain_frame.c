@@ -93,13 +93,14 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
         const yb_spot_t *const spot[3] = {&p[0]->spot, &p[1]->spot, &p[2]->spot};
         raster_t only_look = drawing->raster;
         only_look.band = NULL;
-        raster_look_t look = raster_draw(&only_look, spot[0], spot[1], spot[2], pixel);
-        if (look == RASTER_NOTHING)
+        if (raster_draw(&only_look, spot[0], spot[1], spot[2], pixel) == RASTER_NOTHING)
             return;
+        raster_shape_t shape = {.p = {spot[0], spot[1], spot[2]}};
+        raster_look_t look = raster_front(&shape);
         if (drawing->frame->lines && shade_cut(drawing->frame, p, pixel, &cut))
-            raster_plane(&drawing->raster, spot, look, pixel, &cut);
+            raster_plane(&drawing->raster, &shape, look, pixel, &cut);
         else
-            raster_fill(&drawing->raster, spot[0], spot[1], spot[2], look, pixel);
+            raster_fill(&drawing->raster, &shape, look, pixel);
     }
 }
 

@@ -324,7 +324,8 @@ static void depth_is_a_plane(void **state)
         raster_look_t look;
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        look = raster_front(&p[0], &p[1], &p[2]);
+        raster_shape_t shape = {.p = {&p[0], &p[1], &p[2]}};
+        look = raster_front(&shape);
         double error = depth_error(p);
         if (look == RASTER_SMALL) {
             check_level(p);
@@ -413,10 +414,11 @@ static void lines_lie_where_they_should(void **state)
             cut.zero = rng_range(&rng, 20000, 45000);
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        const raster_look_t look = raster_front(&p[0], &p[1], &p[2]);
+        raster_shape_t shape = {.p = {&p[0], &p[1], &p[2]}};
+        const raster_look_t look = raster_front(&shape);
         if (look == RASTER_NOTHING)
             continue;
-        raster_plane(&page.raster, (const yb_spot_t *const[3]){&p[0], &p[1], &p[2]}, look, 5, &cut);
+        raster_plane(&page.raster, &shape, look, 5, &cut);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             if (depth[i] == 0)
                 continue;
