@@ -15,7 +15,7 @@ static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
 }
 
 enum {
-    SPARE_Q4 = 14 /* by which spots may be off where they should be */
+    SPARE_Q4 = 25 /* by which spots may be off where they should be */
 };
 
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
@@ -108,16 +108,12 @@ static inline bool find_spare(const yb_frame_t *frame, int32_t stray, int32_t ne
     return true;
 }
 
-static bool widen_box(const yb_frame_t *frame, int32_t stray, box_t *box)
+static void widen_box(const spare_t *spare, box_t *box)
 {
-    spare_t spare;
-    if (!find_spare(frame, stray, box->near, &spare))
-        return false;
-    box->left -= spare.x;
-    box->right += spare.x;
-    box->top -= spare.y;
-    box->bottom += spare.y;
-    return true;
+    box->left -= spare->x;
+    box->right += spare->x;
+    box->top -= spare->y;
+    box->bottom += spare->y;
 }
 
 static inline int32_t right_of(const refine_view_t *view)
@@ -140,8 +136,10 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
                    int count, int32_t stray)
 {
     box_t box;
-    if (!find_box(p, count, &box) || !widen_box(frame, stray, &box))
+    spare_t spare;
+    if (!find_box(p, count, &box) || !find_spare(frame, stray, box.near, &spare))
         return misses_planes(frame, view, p, count, stray);
+    widen_box(&spare, &box);
     return box_misses(view, &box);
 }
 
@@ -182,6 +180,21 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
     return stray;
 }
 
+/* find_spare, of a triangle all of whose corners have spots. If none of it changes its depth by
+ * more than a 64th, all midpoints are made from the spots of their ends: what they may be off from
+ * where they should be does not matter, only the rounding of each level.
+ */
+static bool find_part_spare(const yb_frame_t *frame, const yb_part_t *part, int32_t stray,
+                            int32_t near, spare_t *spare)
+{
+    if (stray >= 1 << 14 || stray * near > frame->most_bend)
+        return find_spare(frame, stray, near, spare);
+    int32_t levels = fix_min((int32_t)(refine_edges(part) >> 24), 16) + 1;
+    spare->x = levels;
+    spare->y = (((stray * near >> 10) + levels) * frame->lift >> frame->lift_shift) + levels;
+    return true;
+}
+
 /* Are three spots that are `beyond` some sides of the view farther away than `spare` from one? */
 static bool farther(const refine_view_t *view, const yb_point_t *const p[3], int beyond,
                     const spare_t *spare)
@@ -212,15 +225,8 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
     int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
     int32_t stray = refine_stray(frame, part);
     spare_t spare;
-    if (stray < 1 << 14 && stray * near <= frame->most_bend) {
-        /* All midpoints are made from their ends' spots: each level adds the rounding of one. */
-        int32_t levels = fix_min((int32_t)(refine_edges(part) >> 24), 16);
-        int32_t sway = (stray * near >> 10) + 1 + levels;
-        spare.x = levels + 1;
-        spare.y = (sway * frame->lift >> frame->lift_shift) + levels + 1;
-    } else if (!find_spare(frame, stray, near, &spare)) {
+    if (!find_part_spare(frame, part, stray, near, &spare))
         return misses_planes(frame, view, p, 3, stray);
-    }
     return farther(view, p, beyond, &spare);
 }
 
@@ -234,10 +240,13 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     int32_t last = frame->screen.height - 1;
     int32_t first = 0;
     box_t box;
+    spare_t spare;
     if (refine_misses(frame, whole, part.point, 3, stray)) {
         first = last;
         last = 0;
-    } else if (find_box(part.point, 3, &box) && widen_box(frame, stray, &box)) {
+    } else if (find_box(part.point, 3, &box) &&
+               find_part_spare(frame, &part, stray, box.near, &spare)) {
+        widen_box(&spare, &box);
         first = fix_clamp(box.top >> 4, 0, last);
         last = fix_clamp(box.bottom >> 4, 0, last);
     }

@@ -121,18 +121,20 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
     const uint16_t below = in_row(raster, cut->below, y);
     const uint16_t above = in_row(raster, cut->above, y);
     const uint16_t line = in_row(raster, cut->line, y);
-    for (; x < end; x++, near += (uint32_t)plane->along_x) {
-        int32_t off = (int32_t)value;
-        while (cut->interval > 0 && off >= cutter->half_interval)
-            off -= 2 * cutter->half_interval;
-        value += (uint32_t)cutter->plane.along_x;
-        if (depth_of(near) > depth[x]) {
-            depth[x] = depth_of(near);
+    for (; x < end; x++) {
+        const uint16_t nearer = depth_of(near);
+        if (nearer > depth[x]) {
+            int32_t off = (int32_t)value;
+            while (cut->interval > 0 && off >= cutter->half_interval)
+                off -= 2 * cutter->half_interval;
+            depth[x] = nearer;
             put_pixel(raster, row, x,
                       fix_abs(off) <= cutter->half ? line
                       : off < 0                    ? below
                                                    : above);
         }
+        near += (uint32_t)plane->along_x;
+        value += (uint32_t)cutter->plane.along_x;
     }
 }
 

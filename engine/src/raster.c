@@ -65,16 +65,22 @@ void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t
         /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
         raster_area_t side =
             (raster_area_t)(x * 16 + 8 - a->x_q4) * dy - (raster_area_t)(y * 16 + 8 - a->y_q4) * dx;
-        raster_area_t across = (raster_area_t)dy * 16;
+        const raster_area_t across = (raster_area_t)dy * 16;
+        const raster_area_t down = (raster_area_t)dx * 16;
         for (;;) {
-            for (; side < 0; side += across)
-                x++;
-            for (; side >= across; side -= across)
-                x--;
+            if (side < 0) { /* towards the right alone, or towards the left */
+                do
+                    x++;
+                while ((side += across) < 0);
+            } else if (side >= across) {
+                do
+                    x--;
+                while ((side -= across) >= across);
+            }
             *to++ = (int16_t)x;
             if (--rows == 0)
                 break;
-            side -= (raster_area_t)dx * 16;
+            side -= down;
         }
     }
 }
@@ -83,19 +89,15 @@ void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    const int32_t width = raster->screen->width;
+    const size_t width = raster->screen->width;
     const int32_t top = fix_max(shape->top, raster->first_row);
     const int32_t end = fix_min(shape->bottom, raster->end_row);
-    if (shape->left < 0 || shape->right > width || raster->screen->format == YB_MONO) {
-        raster_plane(raster, shape, RASTER_SMALL, pixel, NULL);
-        return;
-    }
     chunk_t chunk;
     rows_trace(shape->p, top, end, &chunk);
     const uint16_t near = mean_near(shape->p);
     const size_t pitch = raster->band->pitch;
     const bool grey = raster->screen->format == YB_GREY4;
-    uint16_t *depth = raster->band->depth + (top - raster->first_row) * width;
+    uint16_t *depth = raster->band->depth + (size_t)(top - raster->first_row) * width;
     uint8_t *row = raster->band->pixels + (size_t)(top - raster->first_row) * pitch;
     for (int32_t i = 0; i < end - top; i++, depth += width, row += pitch) {
         /* Two edges have set both sides. NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */

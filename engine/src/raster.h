@@ -111,7 +111,8 @@ static inline raster_look_t raster_front(raster_shape_t *shape)
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
  * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
  * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
- * is for small ones alone, at one depth; with a cut (or NULL) the second draws its lines.
+ * is for small ones alone that lie between the screen's left and right side, at one depth, and not
+ * for YB_MONO; with a cut (or NULL) the second draws its lines.
  */
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
@@ -120,7 +121,8 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
 static inline void raster_fill(const raster_t *raster, const raster_shape_t *shape,
                                raster_look_t look, uint16_t pixel)
 {
-    if (look == RASTER_SMALL)
+    if (look == RASTER_SMALL && shape->left >= 0 && shape->right <= raster->screen->width &&
+        raster->screen->format != YB_MONO)
         raster_level(raster, shape, pixel);
     else
         raster_plane(raster, shape, look, pixel, NULL);

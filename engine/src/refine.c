@@ -63,7 +63,7 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
         return edge | REFINE_AGAIN;
     int32_t wide = fix_abs((int32_t)a->spot.x_q4 - b->spot.x_q4);
     int32_t high = fix_abs((int32_t)a->spot.y_q4 - b->spot.y_q4);
-    return (fix_max(wide, high) >> 4) * change <= 2 * near ? asked : edge | REFINE_AGAIN;
+    return (fix_max(wide, high) >> 4) * change <= 4 * near ? asked : edge | REFINE_AGAIN;
 }
 
 /* Is an edge of this length left whole, as most are, by its nearer end? */
@@ -337,7 +337,7 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
     if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
         refine_misses(frame, view, p, 3, 0))
         return;
-    if (!clip_draw(frame, raster, p, shade_ground(frame, p)))
+    if (!clip_draw(frame, raster, p, shade_ground(frame, p).pixel))
         return;
     frame->stats.drawn++;
     if (raster->band == NULL)
@@ -347,12 +347,12 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
 /* Draws a triangle that a line crosses, of the shore or of a contour; false: none does. */
 static bool draw_lines(const yb_frame_t *frame, const raster_t *raster,
                        const yb_point_t *const p[3], const raster_shape_t *shape,
-                       raster_look_t look, uint16_t pixel)
+                       raster_look_t look, shade_t shade)
 {
     raster_cut_t cut;
-    if (!shade_cut(frame, p, pixel, &cut))
+    if (!shade_cut(frame, p, shade, &cut))
         return false;
-    raster_plane(raster, shape, look, pixel, &cut);
+    raster_plane(raster, shape, look, shade.pixel, &cut);
     return true;
 }
 
@@ -375,10 +375,10 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         hand_out(raster, p);
         return;
     }
-    uint16_t pixel = shade_ground(frame, p);
-    if (frame->lines && draw_lines(frame, raster, p, &shape, look, pixel))
+    const shade_t shade = shade_ground(frame, p);
+    if (frame->lines && draw_lines(frame, raster, p, &shape, look, shade))
         return;
-    raster_fill(raster, &shape, look, pixel);
+    raster_fill(raster, &shape, look, shade.pixel);
 }
 
 static inline void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,

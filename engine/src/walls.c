@@ -15,12 +15,24 @@ static bool on_one_side(const yb_map_t *map, const yb_vertex_t *a, const yb_vert
            (a->y_q8 == b->y_q8 && (a->y_q8 == 0 || a->y_q8 == map->north_q8));
 }
 
+/* Does the wall below an edge on the frame show its outside? Only to an eye beyond that side. */
+static bool faces(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    const yb_map_t *map = frame->map;
+    const int32_t *eye = frame->view.eye_q8;
+    if (a->x_q8 == b->x_q8 && (a->x_q8 == 0 ? eye[0] < 0 : eye[0] > map->east_q8))
+        return on_one_side(map, a, b);
+    if (a->y_q8 == b->y_q8 && (a->y_q8 == 0 ? eye[1] < 0 : eye[1] > map->north_q8))
+        return on_one_side(map, a, b);
+    return false;
+}
+
 void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
 {
     const yb_map_t *map = frame->map;
     const yb_index_t *corner = map->triangle[triangle];
     for (int i = 0; i < 3; i++) {
-        if (on_one_side(map, &map->vertex[corner[i]], &map->vertex[corner[i == 2 ? 0 : i + 1]]))
+        if (faces(frame, &map->vertex[corner[i]], &map->vertex[corner[i == 2 ? 0 : i + 1]]))
             frame->rim[triangle >> 3] = (uint8_t)(frame->rim[triangle >> 3] | 1 << (triangle & 7));
     }
 }
@@ -105,7 +117,7 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
         for (int i = 0; i < 3; i++) {
             const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
             const yb_vertex_t *b = &map->vertex[map->triangle[t][i == 2 ? 0 : i + 1]];
-            if (!on_one_side(map, a, b))
+            if (!faces(frame, a, b))
                 continue;
             yb_part_t part;
             refine_root(frame, view, t, &part);

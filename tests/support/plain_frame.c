@@ -85,7 +85,8 @@ typedef struct {
 static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
-    uint16_t pixel = shade_ground(drawing->frame, p);
+    const shade_t shade = shade_ground(drawing->frame, p);
+    const uint16_t pixel = shade.pixel;
     if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
     else {
@@ -97,7 +98,7 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
             return;
         raster_shape_t shape = {.p = {spot[0], spot[1], spot[2]}};
         raster_look_t look = raster_front(&shape);
-        if (drawing->frame->lines && shade_cut(drawing->frame, p, pixel, &cut))
+        if (drawing->frame->lines && shade_cut(drawing->frame, p, shade, &cut))
             raster_plane(&drawing->raster, &shape, look, pixel, &cut);
         else
             raster_fill(&drawing->raster, &shape, look, pixel);
