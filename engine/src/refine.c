@@ -53,17 +53,19 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
         return edge;
     uint32_t parity = a->place ^ b->place;
     parity |= parity >> 16;
-    yb_edge_t asked = edge;
-    for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
-        asked += REFINE_ONCE;
-    if (asked == edge || (frame->even_water && fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
-                          drowned(frame, a, b)))
+    if ((parity & 1) != 0 ||
+        (frame->even_water && fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
+         drowned(frame, a, b)))
         return edge;
     if (!seen || change << 2 > near) /* or there are no spots */
         return edge | REFINE_AGAIN;
     int32_t wide = fix_abs((int32_t)a->spot.x_q4 - b->spot.x_q4);
     int32_t high = fix_abs((int32_t)a->spot.y_q4 - b->spot.y_q4);
-    return (fix_max(wide, high) >> 4) * change <= 4 * near ? asked : edge | REFINE_AGAIN;
+    if ((fix_max(wide, high) >> 4) * change > 4 * near)
+        return edge | REFINE_AGAIN;
+    for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
+        edge += REFINE_ONCE;
+    return edge;
 }
 
 /* Is an edge of this length left whole, as most are, by its nearer end? */
@@ -133,29 +135,6 @@ static inline bool see_middle(const yb_frame_t *frame, const yb_point_t *a, cons
     return true;
 }
 
-void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   yb_edge_t edge, yb_point_t *middle)
-{
-    const yb_map_t *map = frame->map;
-    int32_t dx = relief_dx(a->place, b->place);
-    int32_t dy = relief_dy(a->place, b->place);
-    int32_t z = (a->z_q8 + b->z_q8) >> 1;
-    if (map->smooth)
-        z += relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy);
-    middle->place = mean2(a->place, b->place);
-    middle->slope = mean2(a->slope, b->slope);
-    z += relief_rough(map, middle->place, refine_class(edge), dx, dy, b->z_q8 - a->z_q8);
-    middle->z_q8 = z;
-    middle->top_q8 = fix_max(z, frame->view.water_q8);
-    int32_t rise = middle->top_q8 - ((a->top_q8 + b->top_q8) >> 1);
-    if (fix_min(a->spot.near, b->spot.near) > 0 && fix_abs(rise) < 1 << 14 &&
-        see_middle(frame, a, b, edge, rise, &middle->spot))
-        return;
-    camera_see(frame, middle);
-}
-
-/* --- Triangles -------------------------------------------------------------------------------- */
-
 /* The sides of the view that a point is beyond: of most, none. */
 static inline uint8_t out_of(const refine_view_t *view, const yb_spot_t *spot)
 {
@@ -170,6 +149,29 @@ static inline uint8_t out_of(const refine_view_t *view, const yb_spot_t *spot)
         out |= x < 0 ? REFINE_LEFT : REFINE_RIGHT;
     return (uint8_t)out;
 }
+
+void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
+                   const yb_point_t *b, yb_edge_t edge, yb_point_t *middle)
+{
+    const yb_map_t *map = frame->map;
+    int32_t dx = relief_dx(a->place, b->place);
+    int32_t dy = relief_dy(a->place, b->place);
+    int32_t z = (a->z_q8 + b->z_q8) >> 1;
+    if (map->smooth)
+        z += relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy);
+    middle->place = mean2(a->place, b->place);
+    middle->slope = mean2(a->slope, b->slope);
+    z += relief_rough(map, middle->place, refine_class(edge), dx, dy, b->z_q8 - a->z_q8);
+    middle->z_q8 = z;
+    middle->top_q8 = fix_max(z, frame->view.water_q8);
+    int32_t rise = middle->top_q8 - ((a->top_q8 + b->top_q8) >> 1);
+    if (fix_min(a->spot.near, b->spot.near) == 0 || fix_abs(rise) >= 1 << 14 ||
+        !see_middle(frame, a, b, edge, rise, &middle->spot))
+        camera_see(frame, middle);
+    middle->spot.out = out_of(view, &middle->spot);
+}
+
+/* --- Triangles -------------------------------------------------------------------------------- */
 
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part)
@@ -192,16 +194,6 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
      * a line from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such
      * lines at most one is split on. */
     part->bulge = 2 * bulge + (bulge >> 1);
-}
-
-/* The midpoint of an edge, in a place on the stack. */
-static const yb_point_t *middle_in(const yb_frame_t *frame, const refine_view_t *view,
-                                   yb_level_t *level, const yb_point_t *a, const yb_point_t *b,
-                                   yb_edge_t edge)
-{
-    refine_middle(frame, a, b, edge, &level->middle);
-    level->middle.spot.out = out_of(view, &level->middle.spot);
-    return &level->middle;
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */
@@ -264,14 +256,16 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     yb_edge_t ca = part->edge[2];
     int32_t bulge = part->bulge;
     yb_edge_t am, mb, bn, nc, co, oa;
-    const yb_point_t *m = middle_in(frame, view, &level[0], a, b, ab);
+    yb_point_t *const m = &level[0].middle;
+    refine_middle(frame, view, a, b, ab, m);
     halve(frame, a, m, b, ab, &am, &mb);
     if (bc < REFINE_ONCE) {
         level[0].rest = (yb_part_t){{m, b, c}, {mb, bc, 0}, bulge};
         *part = (yb_part_t){{a, m, c}, {am, 0, ca}, bulge};
         return level + 1;
     }
-    const yb_point_t *n = middle_in(frame, view, &level[1], b, c, bc);
+    yb_point_t *const n = &level[1].middle;
+    refine_middle(frame, view, b, c, bc, n);
     halve(frame, b, n, c, bc, &bn, &nc);
     if (ca < REFINE_ONCE) {
         yb_edge_t mc = cross_edge(frame, m, c, bc);
@@ -280,7 +274,8 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
         *part = (yb_part_t){{n, m, b}, {0, mb, bn}, bulge};
         return level + 2;
     }
-    const yb_point_t *o = middle_in(frame, view, &level[2], c, a, ca);
+    yb_point_t *const o = &level[2].middle;
+    refine_middle(frame, view, c, a, ca, o);
     halve(frame, c, o, a, ca, &co, &oa);
     bool ask = (ab | bc | ca) >= REFINE_AGAIN;
     yb_edge_t on = inner_edge(frame, o, n, ab, ask);
@@ -404,20 +399,23 @@ static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
     frame->stats.refined += three ? 4 : two ? 3 : 2;
     if (walk->raster == NULL)
         return;
-    const yb_point_t *m = middle_in(frame, view, &level[0], a, b, part->edge[0]);
+    yb_point_t *const m = &level[0].middle;
+    refine_middle(frame, view, a, b, part->edge[0], m);
     if (!two) {
         leaf(walk, a, m, c);
         leaf(walk, m, b, c);
         return;
     }
-    const yb_point_t *n = middle_in(frame, view, &level[1], b, c, part->edge[1]);
+    yb_point_t *const n = &level[1].middle;
+    refine_middle(frame, view, b, c, part->edge[1], n);
     if (!three) {
         leaf(walk, n, m, b);
         leaf(walk, c, m, n);
         leaf(walk, c, a, m);
         return;
     }
-    const yb_point_t *o = middle_in(frame, view, &level[2], c, a, part->edge[2]);
+    yb_point_t *const o = &level[2].middle;
+    refine_middle(frame, view, c, a, part->edge[2], o);
     leaf(walk, a, m, o);
     leaf(walk, o, n, c);
     leaf(walk, m, n, o);

@@ -72,8 +72,8 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
                      yb_edge_t edge);
 
 /* The midpoint of an edge that is split: its place, and where it is seen. */
-void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   yb_edge_t edge, yb_point_t *middle);
+void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
+                   const yb_point_t *b, yb_edge_t edge, yb_point_t *middle);
 
 /* Is nothing of some points, and of what lies between them, in the view, when each may move by
  * `stray` in height?

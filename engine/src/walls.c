@@ -90,7 +90,7 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
         bool split = *edge >= REFINE_ONCE && at != last;
         bool seen = (at != level && !split) || !hidden(frame, view, &from, to, stray);
         if (split && seen) {
-            refine_middle(frame, &from, to, *edge, &at->middle);
+            refine_middle(frame, view, &from, to, *edge, &at->middle);
             bool ask = *edge >= REFINE_AGAIN;
             yb_edge_t half = refine_half(*edge);
             *edge = ask ? refine_ask(frame, &at->middle, to, half) : half;

@@ -55,8 +55,8 @@ static void check_edge(const yb_point_t *a, const yb_point_t *b)
         there = (plain_split(a, b, there) & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
         memset(&forth_middle, 0, sizeof forth_middle);
         memset(&back_middle, 0, sizeof back_middle);
-        refine_middle(&frame, a, b, there, &forth_middle);
-        refine_middle(&frame, b, a, there, &back_middle);
+        refine_middle(&frame, &plain_view, a, b, there, &forth_middle);
+        refine_middle(&frame, &plain_view, b, a, there, &back_middle);
         assert_memory_equal(&forth_middle, &back_middle, sizeof forth_middle);
     }
 }
@@ -103,8 +103,8 @@ static void midpoints_are_the_surfaces(void **state)
                 root.edge[i] = plain_split(root.point[i], root.point[(i + 1) % 3], root.edge[i]) |
                                REFINE_AGAIN;
                 relief_middle(&map, a, b, &truth);
-                refine_middle(&frame, root.point[i], root.point[(i + 1) % 3], root.edge[i],
-                              &middle);
+                refine_middle(&frame, &plain_view, root.point[i], root.point[(i + 1) % 3],
+                              root.edge[i], &middle);
                 assert_int_equal(middle.z_q8, truth.z_q8);
                 assert_int_equal(middle.place, relief_place(&truth));
                 assert_int_equal((int)(middle.slope & 0xffff) - 0x8000, truth.gx_q11);
