@@ -29,8 +29,17 @@ void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
                yb_screen_pitch(screen));
         return;
     }
-    for (int32_t x = 0; x < screen->width; x++)
-        put_pixel(raster, row, x, pixel);
+    const uint8_t high = (uint8_t)(pixel >> 8);
+    const uint8_t low = (uint8_t)pixel;
+    uint8_t *const end = row + 2 * (size_t)screen->width;
+    for (; end - row >= 8; row += 8) {
+        row[0] = row[2] = row[4] = row[6] = high;
+        row[1] = row[3] = row[5] = row[7] = low;
+    }
+    for (; row != end; row += 2) {
+        row[0] = high;
+        row[1] = low;
+    }
 }
 
 /* --- Edges ------------------------------------------------------------------------------------ */
