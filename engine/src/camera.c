@@ -341,19 +341,6 @@ void camera_see(const yb_frame_t *frame, yb_point_t *point)
         point->spot = (yb_spot_t){(yb_side_t)x_q4, (yb_side_t)y_q4, (uint16_t)near, 0};
 }
 
-void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
-{
-    const yb_vertex_t *v = &frame->map->vertex[i];
-    const yb_seen_t *seen = &frame->seen[i];
-    point->place = relief_place(v);
-    point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
-    point->z_q8 = v->z_q8;
-    point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
-    point->spot.x_q4 = seen->x_q4;
-    point->spot.y_q4 = seen->y_q4;
-    point->spot.near = seen->near;
-}
-
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)
 {
     *to = *point;

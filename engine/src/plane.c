@@ -154,7 +154,10 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
-    cutter_t cutter = {.cut = cut};
+    cutter_t cutter;
+    cutter.cut = cut;
+    cutter.plane.at_q14 = 0;
+    cutter.plane.along_y = 0;
     bool cuts = cut != NULL && cutter_start(&cutter, p, y);
     chunk_t chunk;
     for (int32_t i = CHUNK; y < end_y; y++, i++) {

@@ -46,13 +46,14 @@ static inline int32_t raster_pixel(int32_t q4)
 }
 
 enum {
-    RASTER_LEVEL = 16
+    RASTER_WIDE = 20, /* pixels of a small triangle: in a row, … */
+    RASTER_HIGH = 16  /* … and rows */
 };
 
 typedef enum {
     RASTER_NOTHING, /* seen from behind, or the box round it meets no pixel's centre in the band */
     RASTER_FRONT,
-    RASTER_SMALL, /* and not larger than RASTER_LEVEL pixels: drawn at one depth */
+    RASTER_SMALL, /* and small: drawn at one depth */
     RASTER_BEYOND /* a corner has no spot: it must be clipped */
 } raster_look_t;
 
@@ -105,7 +106,7 @@ static inline raster_look_t raster_front(raster_shape_t *shape)
     shape->right = right;
     shape->top = top;
     shape->bottom = bottom;
-    return right - left > RASTER_LEVEL || bottom - top > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
+    return right - left > RASTER_WIDE || bottom - top > RASTER_HIGH ? RASTER_FRONT : RASTER_SMALL;
 }
 
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where

@@ -45,7 +45,7 @@ static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, ui
 /* --- Rows ------------------------------------------------------------------------------------- */
 
 enum {
-    CHUNK = 16 /* rows of a triangle that are drawn at once */
+    CHUNK = RASTER_HIGH /* rows of a triangle that are drawn at once */
 };
 
 /* Of each row, the first pixel on its left side or right of it, and that of its right side: the

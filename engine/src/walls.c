@@ -5,6 +5,7 @@
  */
 #include "camera.h"
 #include "clip.h"
+#include "fix.h"
 #include "refine.h"
 #include "shade.h"
 
@@ -108,11 +109,24 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     }
 }
 
+/* Does all that stands upright go down on the screen from top to foot? Straight below and above the
+ * eye it does not: then these places, focal * up_z / |depth_z| from the middle, are not on it.
+ */
+static bool all_hangs(const yb_frame_t *frame)
+{
+    return frame->focal_q4 * frame->up_z > frame->screen.height * 8 * fix_abs(frame->depth_z);
+}
+
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
     const yb_map_t *map = frame->map;
+    /* Then no wall is seen above the rows of its triangle, if that is seen at all. */
+    const int32_t last_bin = all_hangs(frame) ? (raster->end_row - 1) >> frame->row_shift : 15;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if ((frame->rim[t >> 3] & 1 << (t & 7)) == 0)
+            continue;
+        const int bins = frame->rows[t];
+        if (bins >> 4 > last_bin && bins >> 4 <= (bins & 15))
             continue;
         for (int i = 0; i < 3; i++) {
             const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
