@@ -101,9 +101,10 @@ typedef struct {
 } cutter_t;
 
 /* False: the lines would lie so close together that nothing else would be left. */
-static bool cutter_start(cutter_t *cutter, const yb_spot_t *const p[3], int32_t y)
+static bool cutter_start(cutter_t *cutter, const raster_cut_t *cut, const yb_spot_t *const p[3],
+                         int32_t y)
 {
-    const raster_cut_t *cut = cutter->cut;
+    cutter->cut = cut;
     plane_start(&cutter->plane, p, cut->value, y);
     cutter->plane.at_q14 -= (uint32_t)cut->zero << 14;
     cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
@@ -155,10 +156,9 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
     cutter_t cutter;
-    cutter.cut = cut;
     cutter.plane.at_q14 = 0;
     cutter.plane.along_y = 0;
-    bool cuts = cut != NULL && cutter_start(&cutter, p, y);
+    bool cuts = cut != NULL && cutter_start(&cutter, cut, p, y);
     chunk_t chunk;
     for (int32_t i = CHUNK; y < end_y; y++, i++) {
         if (i == CHUNK) {
