@@ -159,14 +159,14 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     cutter.plane.at_q14 = 0;
     cutter.plane.along_y = 0;
     bool cuts = cut != NULL && cutter_start(&cutter, cut, p, y);
-    chunk_t chunk;
-    for (int32_t i = CHUNK; y < end_y; y++, i++) {
-        if (i == CHUNK) {
-            rows_trace(p, y, fix_min(y + CHUNK, end_y), &chunk);
+    raster_sides_t *sides = raster->sides;
+    for (int32_t i = RASTER_HIGH; y < end_y; y++, i++) {
+        if (i == RASTER_HIGH) {
+            rows_trace(p, y, fix_min(y + RASTER_HIGH, end_y), sides);
             i = 0;
         }
-        int32_t x = fix_max(chunk.left[i], 0);
-        int32_t end = fix_min(chunk.right[i], width);
+        int32_t x = fix_max(sides->left[i], 0);
+        int32_t end = fix_min(sides->right[i], width);
         if (cuts)
             draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
         else

@@ -49,7 +49,7 @@ void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
  * division, and exact. Both triangles at an edge come to the same pixel, which is where the one
  * ends and the other begins. Counter-clockwise, an edge down is on the left.
  */
-void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t *chunk)
+void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, raster_sides_t *sides)
 {
     const yb_spot_t *from = p[2];
     for (int i = 0; i < 3; i++) {
@@ -57,11 +57,11 @@ void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t
         const yb_spot_t *b = p[i];
         from = b;
         /* cppcheck-suppress ctuuninitvar ; it is what is filled in here */
-        int16_t *to = chunk->left;
+        int16_t *to = sides->left;
         if (a->y_q4 > b->y_q4) {
             b = a;
             a = from;
-            to = chunk->right;
+            to = sides->right;
         }
         int32_t y = fix_max(raster_pixel(a->y_q4), first);
         int32_t rows = fix_min(raster_pixel(b->y_q4), end) - y;
@@ -96,22 +96,33 @@ void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
+bool raster_covers(const raster_t *raster, const raster_shape_t *shape)
+{
+    const int32_t top = fix_max(shape->top, raster->first_row);
+    const int32_t end = fix_min(shape->bottom, raster->end_row);
+    const raster_sides_t *sides = raster->sides;
+    rows_trace(shape->p, top, end, raster->sides);
+    for (int32_t i = 0; i < end - top; i++) {
+        if (sides->left[i] < sides->right[i])
+            return true;
+    }
+    return false;
+}
+
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
     const size_t width = raster->screen->width;
     const int32_t top = fix_max(shape->top, raster->first_row);
     const int32_t end = fix_min(shape->bottom, raster->end_row);
-    chunk_t chunk;
-    rows_trace(shape->p, top, end, &chunk);
+    const raster_sides_t *sides = raster->sides;
     const uint16_t near = mean_near(shape->p);
     const size_t pitch = raster->band->pitch;
     const bool grey = raster->screen->format == YB_GREY4;
     uint16_t *depth = raster->band->depth + (size_t)(top - raster->first_row) * width;
     uint8_t *row = raster->band->pixels + (size_t)(top - raster->first_row) * pitch;
     for (int32_t i = 0; i < end - top; i++, depth += width, row += pitch) {
-        /* Two edges have set both sides. NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
-        int32_t x = chunk.left[i];
-        int32_t right = chunk.right[i];
+        int32_t x = sides->left[i];
+        int32_t right = sides->right[i];
         if (grey) {
             for (; x < right; x++) {
                 if (near > depth[x]) {

@@ -25,12 +25,25 @@ typedef struct {
     uint16_t below, above, line;
 } raster_cut_t;
 
+enum {
+    RASTER_WIDE = 20, /* pixels of a small triangle: in a row, … */
+    RASTER_HIGH = 16  /* … and rows */
+};
+
+/* Of each row of a triangle, the first pixel on its left side or right of it, and that of its right
+ * side: the first that is not drawn any more.
+ */
+typedef struct {
+    int16_t left[RASTER_HIGH], right[RASTER_HIGH];
+} raster_sides_t;
+
 typedef struct {
     const yb_screen_t *screen;
     const yb_band_t *band;      /* NULL: nothing is drawn, only looked at */
     int32_t first_row, end_row; /* of the screen */
     yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
     void *context;
+    raster_sides_t *sides; /* of the triangle in hand; not needed if there is no band */
 } raster_t;
 
 /* Clears the band's depths. */
@@ -44,11 +57,6 @@ static inline int32_t raster_pixel(int32_t q4)
 {
     return (q4 + 7) >> 4;
 }
-
-enum {
-    RASTER_WIDE = 20, /* pixels of a small triangle: in a row, … */
-    RASTER_HIGH = 16  /* … and rows */
-};
 
 typedef enum {
     RASTER_NOTHING, /* seen from behind, or the box round it meets no pixel's centre in the band */
@@ -113,20 +121,29 @@ static inline raster_look_t raster_front(raster_shape_t *shape)
  * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
  * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
  * is for small ones alone that lie between the screen's left and right side, at one depth, and not
- * for YB_MONO; with a cut (or NULL) the second draws its lines.
+ * for YB_MONO, after raster_covers has said that it covers a pixel in the band, as one in six does
+ * not; with a cut (or NULL) the second draws its lines.
  */
+bool raster_covers(const raster_t *raster, const raster_shape_t *shape);
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut);
 
+/* Is a triangle one for raster_level? */
+static inline bool raster_is_level(const raster_t *raster, const raster_shape_t *shape,
+                                   raster_look_t look)
+{
+    return look == RASTER_SMALL && shape->left >= 0 && shape->right <= raster->screen->width &&
+           raster->screen->format != YB_MONO;
+}
+
 static inline void raster_fill(const raster_t *raster, const raster_shape_t *shape,
                                raster_look_t look, uint16_t pixel)
 {
-    if (look == RASTER_SMALL && shape->left >= 0 && shape->right <= raster->screen->width &&
-        raster->screen->format != YB_MONO)
-        raster_level(raster, shape, pixel);
-    else
+    if (!raster_is_level(raster, shape, look))
         raster_plane(raster, shape, look, pixel, NULL);
+    else if (raster_covers(raster, shape))
+        raster_level(raster, shape, pixel);
 }
 
 /* Both: looks, and draws what is in front, if there is a band. */

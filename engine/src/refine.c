@@ -370,10 +370,16 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         hand_out(raster, p);
         return;
     }
+    bool level = raster_is_level(raster, &shape, look);
+    if (level && !raster_covers(raster, &shape))
+        return;
     const shade_t shade = shade_ground(frame, p);
     if (frame->lines && draw_lines(frame, raster, p, &shape, look, shade))
         return;
-    raster_fill(raster, &shape, look, shade.pixel);
+    if (level)
+        raster_level(raster, &shape, shade.pixel);
+    else
+        raster_plane(raster, &shape, look, shade.pixel, NULL);
 }
 
 static inline void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,

@@ -107,7 +107,9 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
-    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL}};
+    raster_sides_t sides;
+    drawing_t drawing = {frame,
+                         {&frame->screen, band, 0, frame->screen.height, NULL, NULL, &sides}};
     raster_clear(&drawing.raster);
     for (int32_t y = 0; y < frame->screen.height; y++)
         raster_row(&drawing.raster, y, colour_sky(frame, y));

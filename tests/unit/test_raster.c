@@ -22,13 +22,14 @@ typedef struct {
     yb_screen_t screen;
     yb_band_t band;
     raster_t raster;
+    raster_sides_t sides;
 } page_t;
 
 static void open_page(page_t *page, yb_format_t format, int y, int rows)
 {
     page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
     page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, depth, pixels + GUARD, PITCH};
-    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
+    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL, &page->sides};
     memset(pixels, 0xa5, sizeof pixels);
     raster_clear(&page->raster);
     for (int i = 0; i < rows; i++)
@@ -355,7 +356,8 @@ static void huge_triangles_fit(void **state)
     for (int round = 0; round < 2000; round++) {
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
-        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
+        raster_sides_t sides;
+        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL, &sides};
         raster_clear(&raster);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
