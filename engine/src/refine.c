@@ -230,8 +230,8 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
                             yb_edge_t bc)
 {
     yb_edge_t mc = refine_half(bc);
-    if (bc >= REFINE_AGAIN)
-        return ask_anew(frame, m, c, mc);
+    if (bc >= REFINE_AGAIN) /* unless the half is so short that it has no class */
+        return refine_class(mc) >= 0 ? ask_anew(frame, m, c, mc) : mc & 0xffffff;
     uint32_t parity = m->place ^ c->place;
     parity |= parity >> 16;
     int often = 0;
