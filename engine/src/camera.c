@@ -232,7 +232,7 @@ static void find_lengths(yb_frame_t *frame, const pose_t *pose)
      * meet no pixel's centre. Made for as many on 128 and on 320 pixels. */
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
-        edge_q4 = (uint32_t)fix_max(7 * width / 6 - 23, (width + 1) >> 1);
+        edge_q4 = (uint32_t)fix_max(9 * width / 8 - 22, (width + 1) >> 1);
     uint64_t edge = (uint64_t)edge_q4 * 65535;
     uint64_t longest =
         (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
@@ -254,8 +254,8 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
         yb_point_t point;
         camera_root(frame, (yb_index_t)i, &point);
         camera_see(frame, &point);
-        frame->seen[i].x_q4 = (yb_side_t)point.spot.x_q4;
-        frame->seen[i].y_q4 = (yb_side_t)point.spot.y_q4;
+        frame->seen[i].x_q4 = point.spot.x_q4;
+        frame->seen[i].y_q4 = point.spot.y_q4;
         frame->seen[i].near = point.spot.near;
     }
 }
@@ -299,46 +299,46 @@ int32_t camera_near(const yb_frame_t *frame, int32_t depth)
     return near_ratio(frame, inverse, shift);
 }
 
-void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot)
+/* Where a place is seen from the upper left corner, 1/16 pixel, and its 1/depth. right and up are
+ * at most 2 depth and some units, which are a 32nd of the least depth: x is within 1.05 * 2^15, and
+ * times MOST_FOCAL_Q4 below 2^31.
+ */
+static inline int32_t project(const yb_frame_t *frame, const camera_point_t *from, int32_t *x_q4,
+                              int32_t *y_q4)
 {
-    /* right and up are at most 2 depth and some units, which are a 32nd of the least depth: x is
-     * within 1.05 * 2^15, and times MOST_FOCAL_Q4 below 2^31. */
     int shift;
     int32_t inverse = inverse_of(from->depth, &shift);
     int32_t x = (shifted(from->right, shift) * inverse) >> 15; /* Q14 */
     int32_t y = (shifted(from->up, shift) * inverse) >> 15;
-    spot->x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
-    spot->y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
-    spot->near = (uint16_t)near_ratio(frame, inverse, shift);
+    *x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
+    *y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
+    return near_ratio(frame, inverse, shift);
+}
+
+void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot)
+{
+    int32_t x_q4;
+    int32_t y_q4;
+    spot->near = (uint16_t)project(frame, from, &x_q4, &y_q4);
+    spot->x_q4 = (yb_side_t)x_q4;
+    spot->y_q4 = (yb_side_t)y_q4;
 }
 
 void camera_see(const yb_frame_t *frame, yb_point_t *point)
 {
     camera_point_t at;
     camera_view(frame, point->place, point->top_q8, &at);
-    point->spot = (yb_spot_t){.y_q4 = INT32_MIN};
+    point->spot = (yb_spot_t){0};
     if (at.depth < frame->near || fix_abs(at.right) >= 2 * at.depth ||
         fix_abs(at.up) >= 2 * at.depth)
         return;
-    yb_spot_t spot;
-    camera_project(frame, &at, &spot);
+    int32_t x_q4;
+    int32_t y_q4;
+    int32_t near = project(frame, &at, &x_q4, &y_q4);
     uint32_t wide = frame->screen.width * (uint32_t)16;
     uint32_t high = frame->screen.height * (uint32_t)16;
-    if ((uint32_t)spot.x_q4 + wide <= 3 * wide && (uint32_t)spot.y_q4 + high <= 3 * high)
-        point->spot = spot;
-}
-
-void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
-{
-    const yb_vertex_t *v = &frame->map->vertex[i];
-    const yb_seen_t *seen = &frame->seen[i];
-    point->place = relief_place(v);
-    point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
-    point->z_q8 = v->z_q8;
-    point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
-    point->spot.x_q4 = seen->x_q4;
-    point->spot.y_q4 = seen->near > 0 ? seen->y_q4 : INT32_MIN;
-    point->spot.near = seen->near;
+    if ((uint32_t)x_q4 + wide <= 3 * wide && (uint32_t)y_q4 + high <= 3 * high)
+        point->spot = (yb_spot_t){(yb_side_t)x_q4, (yb_side_t)y_q4, (uint16_t)near, 0};
 }
 
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)

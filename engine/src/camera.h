@@ -9,6 +9,9 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "fix.h"
+#include "relief.h"
+
 typedef struct {
     int32_t right, up, depth; /* within 2^17 */
 } camera_point_t;
@@ -34,7 +37,18 @@ void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot
 void camera_see(const yb_frame_t *frame, yb_point_t *point);
 
 /* Vertex i of the map as a point. */
-void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point);
+static inline void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t *point)
+{
+    const yb_vertex_t *v = &frame->map->vertex[i];
+    const yb_seen_t *seen = &frame->seen[i];
+    point->place = relief_place(v);
+    point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
+    point->z_q8 = v->z_q8;
+    point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
+    point->spot.x_q4 = seen->x_q4;
+    point->spot.y_q4 = seen->y_q4;
+    point->spot.near = seen->near;
+}
 
 /* The point straight above or below `point` at height z, to be drawn there, under water or not. */
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to);

@@ -83,8 +83,9 @@ uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t n
     const uint8_t(*palette)[3] = hues[frame->view.palette];
     uint32_t mixed[3];
     for (int i = 0; i < 3; i++) {
-        int32_t light = yb_rom_u8(&palette[hue][i]) * (shade + 1) >> 4;
-        mixed[i] = blend(light, yb_rom_u8(&palette[HUE_HAZE][i]), haze);
+        mixed[i] = (uint32_t)(yb_rom_u8(&palette[hue][i]) * (shade + 1)) >> 4;
+        if (haze > 0)
+            mixed[i] = blend((int32_t)mixed[i], yb_rom_u8(&palette[HUE_HAZE][i]), haze);
     }
     return rgb565(mixed[0], mixed[1], mixed[2]);
 }

@@ -31,10 +31,10 @@ static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], i
                           int32_t *along_y)
 {
     /* Clockwise on the screen, where y points down: the area is positive. */
-    int32_t x1 = p[2]->x_q4 - p[0]->x_q4;
-    int32_t y1 = p[2]->y_q4 - p[0]->y_q4;
-    int32_t x2 = p[1]->x_q4 - p[0]->x_q4;
-    int32_t y2 = p[1]->y_q4 - p[0]->y_q4;
+    int32_t x1 = (int32_t)p[2]->x_q4 - p[0]->x_q4;
+    int32_t y1 = (int32_t)p[2]->y_q4 - p[0]->y_q4;
+    int32_t x2 = (int32_t)p[1]->x_q4 - p[0]->x_q4;
+    int32_t y2 = (int32_t)p[1]->y_q4 - p[0]->y_q4;
     uint32_t all = (uint32_t)(fix_abs(x1) | fix_abs(y1) | fix_abs(x2) | fix_abs(y2));
     int shift = 0;
     while (all >> shift >= 1u << 13)
@@ -101,9 +101,10 @@ typedef struct {
 } cutter_t;
 
 /* False: the lines would lie so close together that nothing else would be left. */
-static bool cutter_start(cutter_t *cutter, const yb_spot_t *const p[3], int32_t y)
+static bool cutter_start(cutter_t *cutter, const raster_cut_t *cut, const yb_spot_t *const p[3],
+                         int32_t y)
 {
-    const raster_cut_t *cut = cutter->cut;
+    cutter->cut = cut;
     plane_start(&cutter->plane, p, cut->value, y);
     cutter->plane.at_q14 -= (uint32_t)cut->zero << 14;
     cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
@@ -121,28 +122,31 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
     const uint16_t below = in_row(raster, cut->below, y);
     const uint16_t above = in_row(raster, cut->above, y);
     const uint16_t line = in_row(raster, cut->line, y);
-    for (; x < end; x++, near += (uint32_t)plane->along_x) {
-        int32_t off = (int32_t)value;
-        while (cut->interval > 0 && off >= cutter->half_interval)
-            off -= 2 * cutter->half_interval;
-        value += (uint32_t)cutter->plane.along_x;
-        if (depth_of(near) > depth[x]) {
-            depth[x] = depth_of(near);
+    for (; x < end; x++) {
+        const uint16_t nearer = depth_of(near);
+        if (nearer > depth[x]) {
+            int32_t off = (int32_t)value;
+            while (cut->interval > 0 && off >= cutter->half_interval)
+                off -= 2 * cutter->half_interval;
+            depth[x] = nearer;
             put_pixel(raster, row, x,
                       fix_abs(off) <= cutter->half ? line
                       : off < 0                    ? below
                                                    : above);
         }
+        near += (uint32_t)plane->along_x;
+        value += (uint32_t)cutter->plane.along_x;
     }
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-void raster_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look,
+void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut)
 {
-    int32_t y = rows_first(raster, p);
-    int32_t end_y = rows_end(raster, p);
+    const yb_spot_t *const *p = shape->p;
+    int32_t y = fix_max(shape->top, raster->first_row);
+    int32_t end_y = fix_min(shape->bottom, raster->end_row);
     int32_t width = raster->screen->width;
     int32_t line = y - raster->first_row;
     uint16_t *depth = raster->band->depth + line * width;
@@ -151,16 +155,18 @@ void raster_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_lo
     const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
-    cutter_t cutter = {.cut = cut};
-    bool cuts = cut != NULL && cutter_start(&cutter, p, y);
-    chunk_t chunk;
-    for (int32_t i = CHUNK; y < end_y; y++, i++) {
-        if (i == CHUNK) {
-            rows_trace(p, y, fix_min(y + CHUNK, end_y), &chunk);
+    cutter_t cutter;
+    cutter.plane.at_q14 = 0;
+    cutter.plane.along_y = 0;
+    bool cuts = cut != NULL && cutter_start(&cutter, cut, p, y);
+    raster_sides_t *sides = raster->sides;
+    for (int32_t i = RASTER_HIGH; y < end_y; y++, i++) {
+        if (i == RASTER_HIGH) {
+            rows_trace(p, y, fix_min(y + RASTER_HIGH, end_y), sides);
             i = 0;
         }
-        int32_t x = fix_max(chunk.left[i], 0);
-        int32_t end = fix_min(chunk.right[i], width);
+        int32_t x = fix_max(sides->left[i], 0);
+        int32_t end = fix_min(sides->right[i], width);
         if (cuts)
             draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
         else

@@ -29,114 +29,118 @@ void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
                yb_screen_pitch(screen));
         return;
     }
-    for (int32_t x = 0; x < screen->width; x++)
-        put_pixel(raster, row, x, pixel);
+    const uint8_t high = (uint8_t)(pixel >> 8);
+    const uint8_t low = (uint8_t)pixel;
+    uint8_t *const end = row + 2 * (size_t)screen->width;
+    for (; end - row >= 8; row += 8) {
+        row[0] = row[2] = row[4] = row[6] = high;
+        row[1] = row[3] = row[5] = row[7] = low;
+    }
+    for (; row != end; row += 2) {
+        row[0] = high;
+        row[1] = low;
+    }
 }
 
 /* --- Edges ------------------------------------------------------------------------------------ */
 
-/* Where an edge of a triangle crosses the rows from first up to end: the first pixel whose centre
+/* Where each edge of a triangle crosses the rows from first up to end: the first pixel whose centre
  * is on the edge or right of it. It goes with the edge from row to row, in whole pixels: no
  * division, and exact. Both triangles at an edge come to the same pixel, which is where the one
  * ends and the other begins. Counter-clockwise, an edge down is on the left.
  */
-static void trace(const yb_spot_t *a, const yb_spot_t *b, int32_t first, int32_t end,
-                  chunk_t *chunk)
+void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, raster_sides_t *sides)
 {
-    /* cppcheck-suppress ctuuninitvar ; it is what is filled in here */
-    int16_t *to = chunk->left;
-    if (a->y_q4 > b->y_q4) {
-        const yb_spot_t *upper = b;
-        b = a;
-        a = upper;
-        to = chunk->right;
+    const yb_spot_t *from = p[2];
+    for (int i = 0; i < 3; i++) {
+        const yb_spot_t *a = from;
+        const yb_spot_t *b = p[i];
+        from = b;
+        /* cppcheck-suppress ctuuninitvar ; it is what is filled in here */
+        int16_t *to = sides->left;
+        if (a->y_q4 > b->y_q4) {
+            b = a;
+            a = from;
+            to = sides->right;
+        }
+        int32_t y = fix_max(raster_pixel(a->y_q4), first);
+        int32_t rows = fix_min(raster_pixel(b->y_q4), end) - y;
+        if (rows <= 0)
+            continue;
+        to += y - first;
+        int32_t dx = b->x_q4 - (int32_t)a->x_q4;
+        int32_t dy = b->y_q4 - (int32_t)a->y_q4;
+        int32_t x = raster_pixel(a->x_q4);
+        /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
+        raster_area_t side =
+            (raster_area_t)(x * 16 + 8 - a->x_q4) * dy - (raster_area_t)(y * 16 + 8 - a->y_q4) * dx;
+        const raster_area_t across = (raster_area_t)dy * 16;
+        const raster_area_t down = (raster_area_t)dx * 16;
+        for (;;) {
+            if (side < 0) { /* towards the right alone, or towards the left */
+                do
+                    x++;
+                while ((side += across) < 0);
+            } else if (side >= across) {
+                do
+                    x--;
+                while ((side -= across) >= across);
+            }
+            *to++ = (int16_t)x;
+            if (--rows == 0)
+                break;
+            side -= down;
+        }
     }
-    int32_t y = fix_max(raster_pixel(a->y_q4), first);
-    int32_t rows = fix_min(raster_pixel(b->y_q4), end) - y;
-    if (rows <= 0)
-        return;
-    to += y - first;
-    int32_t dx = b->x_q4 - a->x_q4;
-    int32_t dy = b->y_q4 - a->y_q4;
-    int32_t x = raster_pixel(a->x_q4);
-    /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
-    raster_area_t side =
-        (raster_area_t)(x * 16 + 8 - a->x_q4) * dy - (raster_area_t)(y * 16 + 8 - a->y_q4) * dx;
-    raster_area_t across = (raster_area_t)dy * 16;
-    raster_area_t down = (raster_area_t)dx * 16;
-    for (;;) {
-        for (; side < 0; side += across)
-            x++;
-        for (; side >= across; side -= across)
-            x--;
-        *to++ = (int16_t)x;
-        if (--rows == 0)
-            return;
-        side -= down;
-    }
-}
-
-void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t *chunk)
-{
-    trace(p[0], p[1], first, end, chunk);
-    trace(p[1], p[2], first, end, chunk);
-    trace(p[2], p[0], first, end, chunk);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-/* The pixels from x up to end of a row, at one depth. */
-static inline void draw_level(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x,
-                              int32_t end, uint16_t near, uint16_t pixel)
+bool raster_covers(const raster_t *raster, const raster_shape_t *shape)
 {
-    if (raster->screen->format == YB_RGB565) {
-        for (; x < end; x++) {
-            if (near > depth[x]) {
-                depth[x] = near;
-                row[2 * x] = (uint8_t)(pixel >> 8);
-                row[2 * x + 1] = (uint8_t)pixel;
-            }
-        }
-        return;
+    const int32_t top = fix_max(shape->top, raster->first_row);
+    const int32_t end = fix_min(shape->bottom, raster->end_row);
+    const raster_sides_t *sides = raster->sides;
+    rows_trace(shape->p, top, end, raster->sides);
+    for (int32_t i = 0; i < end - top; i++) {
+        if (sides->left[i] < sides->right[i])
+            return true;
     }
-    if (raster->screen->format == YB_GREY4) {
-        for (; x < end; x++) {
-            if (near > depth[x]) {
-                uint8_t *at = &row[x >> 1];
-                depth[x] = near;
-                *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
-            }
-        }
-        return;
-    }
-    for (; x < end; x++) {
-        if (near > depth[x]) {
-            depth[x] = near;
-            put_pixel(raster, row, x, pixel);
-        }
-    }
+    return false;
 }
 
-void raster_level(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                  const yb_spot_t *c, uint16_t pixel)
+void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    const yb_spot_t *const p[3] = {a, b, c};
-    int32_t y = rows_first(raster, p);
-    int32_t end_y = rows_end(raster, p);
-    chunk_t chunk;
-    rows_trace(p, y, end_y, &chunk);
-    uint16_t near = mean_near(p);
-    int32_t width = raster->screen->width;
-    int32_t line = y - raster->first_row;
-    uint16_t *depth = raster->band->depth + line * width;
-    size_t pitch = raster->band->pitch;
-    uint8_t *row = raster->band->pixels + (size_t)line * pitch;
-    for (int32_t rows = end_y - y, i = 0; i < rows; i++) {
-        /* Two edges have set both sides. NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
-        draw_level(raster, depth, row, fix_max(chunk.left[i], 0), fix_min(chunk.right[i], width),
-                   near, in_row(raster, pixel, y + i));
-        depth += width;
-        row += pitch;
+    const size_t width = raster->screen->width;
+    const int32_t top = fix_max(shape->top, raster->first_row);
+    const int32_t end = fix_min(shape->bottom, raster->end_row);
+    const raster_sides_t *sides = raster->sides;
+    const uint16_t near = mean_near(shape->p);
+    const size_t pitch = raster->band->pitch;
+    const bool grey = raster->screen->format == YB_GREY4;
+    uint16_t *depth = raster->band->depth + (size_t)(top - raster->first_row) * width;
+    uint8_t *row = raster->band->pixels + (size_t)(top - raster->first_row) * pitch;
+    for (int32_t i = 0; i < end - top; i++, depth += width, row += pitch) {
+        int32_t x = sides->left[i];
+        int32_t right = sides->right[i];
+        if (grey) {
+            for (; x < right; x++) {
+                if (near > depth[x]) {
+                    uint8_t *at = &row[x >> 1];
+                    depth[x] = near;
+                    *at =
+                        (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
+                }
+            }
+        } else {
+            for (; x < right; x++) {
+                if (near > depth[x]) {
+                    depth[x] = near;
+                    row[2 * x] = (uint8_t)(pixel >> 8);
+                    row[2 * x + 1] = (uint8_t)pixel;
+                }
+            }
+        }
     }
 }
 
@@ -153,8 +157,9 @@ raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_s
         (a->x_q4 <= 8 && b->x_q4 <= 8 && c->x_q4 <= 8) ||
         (a->x_q4 > right && b->x_q4 > right && c->x_q4 > right))
         return RASTER_NOTHING;
-    raster_look_t look = raster_front(a, b, c);
+    raster_shape_t shape = {.p = {a, b, c}};
+    raster_look_t look = raster_front(&shape);
     if (raster->band != NULL && (look == RASTER_FRONT || look == RASTER_SMALL))
-        raster_fill(raster, a, b, c, look, pixel);
+        raster_fill(raster, &shape, look, pixel);
     return look;
 }

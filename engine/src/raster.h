@@ -25,12 +25,25 @@ typedef struct {
     uint16_t below, above, line;
 } raster_cut_t;
 
+enum {
+    RASTER_WIDE = 20, /* pixels of a small triangle: in a row, … */
+    RASTER_HIGH = 16  /* … and rows */
+};
+
+/* Of each row of a triangle, the first pixel on its left side or right of it, and that of its right
+ * side: the first that is not drawn any more.
+ */
+typedef struct {
+    int16_t left[RASTER_HIGH], right[RASTER_HIGH];
+} raster_sides_t;
+
 typedef struct {
     const yb_screen_t *screen;
     const yb_band_t *band;      /* NULL: nothing is drawn, only looked at */
     int32_t first_row, end_row; /* of the screen */
     yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
     void *context;
+    raster_sides_t *sides; /* of the triangle in hand; not needed if there is no band */
 } raster_t;
 
 /* Clears the band's depths. */
@@ -45,57 +58,92 @@ static inline int32_t raster_pixel(int32_t q4)
     return (q4 + 7) >> 4;
 }
 
-enum {
-    RASTER_LEVEL = 16
-};
-
 typedef enum {
     RASTER_NOTHING, /* seen from behind, or the box round it meets no pixel's centre in the band */
     RASTER_FRONT,
-    RASTER_SMALL, /* and not larger than RASTER_LEVEL pixels: drawn at one depth */
+    RASTER_SMALL, /* and small: drawn at one depth */
     RASTER_BEYOND /* a corner has no spot: it must be clipped */
 } raster_look_t;
 
-/* Looks at a triangle, counter-clockwise from the front, whose corners have spots and are not all
- * beyond one side of the band.
+/* A triangle on the screen, and the box of the pixels whose centres it may cover: from the first
+ * up to the one after the last.
  */
-static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c)
+typedef struct {
+    const yb_spot_t *p[3];
+    int32_t left, right, top, bottom;
+} raster_shape_t;
+
+static inline int32_t raster_least(int32_t a, int32_t b, int32_t c)
 {
-    int32_t top = a->y_q4 < b->y_q4 ? a->y_q4 : b->y_q4;
-    int32_t bottom = a->y_q4 < b->y_q4 ? b->y_q4 : a->y_q4;
-    top = raster_pixel(c->y_q4 < top ? c->y_q4 : top);
-    bottom = raster_pixel(c->y_q4 > bottom ? c->y_q4 : bottom);
-    /* y points down: a front, counter-clockwise with y up, is negative here. */
-    if (top >= bottom || (raster_area_t)(b->x_q4 - a->x_q4) * (c->y_q4 - a->y_q4) -
-                                 (raster_area_t)(b->y_q4 - a->y_q4) * (c->x_q4 - a->x_q4) >=
-                             0)
+    a = a < b ? a : b;
+    return a < c ? a : c;
+}
+
+static inline int32_t raster_most(int32_t a, int32_t b, int32_t c)
+{
+    a = a > b ? a : b;
+    return a > c ? a : c;
+}
+
+/* Looks at a triangle, counter-clockwise from the front, whose corners have spots and are not all
+ * beyond one side of the band, and finds its box.
+ */
+static inline raster_look_t raster_front(raster_shape_t *shape)
+{
+    const yb_spot_t *a = shape->p[0];
+    const yb_spot_t *b = shape->p[1];
+    const yb_spot_t *c = shape->p[2];
+    const int32_t ay = a->y_q4;
+    const int32_t by = b->y_q4;
+    const int32_t cy = c->y_q4;
+    const int32_t top = raster_pixel(raster_least(ay, by, cy));
+    const int32_t bottom = raster_pixel(raster_most(ay, by, cy));
+    if (top >= bottom)
         return RASTER_NOTHING;
-    int32_t left = a->x_q4 < b->x_q4 ? a->x_q4 : b->x_q4;
-    int32_t right = a->x_q4 < b->x_q4 ? b->x_q4 : a->x_q4;
-    left = raster_pixel(c->x_q4 < left ? c->x_q4 : left);
-    right = raster_pixel(c->x_q4 > right ? c->x_q4 : right);
+    const int32_t ax = a->x_q4;
+    const int32_t bx = b->x_q4;
+    const int32_t cx = c->x_q4;
+    /* y points down: a front, counter-clockwise with y up, is negative here. */
+    if ((raster_area_t)(bx - ax) * (cy - ay) - (raster_area_t)(by - ay) * (cx - ax) >= 0)
+        return RASTER_NOTHING;
+    const int32_t left = raster_pixel(raster_least(ax, bx, cx));
+    const int32_t right = raster_pixel(raster_most(ax, bx, cx));
     if (left >= right)
         return RASTER_NOTHING;
-    return right - left > RASTER_LEVEL || bottom - top > RASTER_LEVEL ? RASTER_FRONT : RASTER_SMALL;
+    shape->left = left;
+    shape->right = right;
+    shape->top = top;
+    shape->bottom = bottom;
+    return right - left > RASTER_WIDE || bottom - top > RASTER_HIGH ? RASTER_FRONT : RASTER_SMALL;
 }
 
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
  * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
  * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
- * is for small ones alone, at one depth; with a cut (or NULL) the second draws its lines.
+ * is for small ones alone that lie between the screen's left and right side, at one depth, and not
+ * for YB_MONO, after raster_covers has said that it covers a pixel in the band, as one in six does
+ * not; with a cut (or NULL) the second draws its lines.
  */
-void raster_level(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                  const yb_spot_t *c, uint16_t pixel);
-void raster_plane(const raster_t *raster, const yb_spot_t *const p[3], raster_look_t look,
+bool raster_covers(const raster_t *raster, const raster_shape_t *shape);
+void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
+void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut);
 
-static inline void raster_fill(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                               const yb_spot_t *c, raster_look_t look, uint16_t pixel)
+/* Is a triangle one for raster_level? */
+static inline bool raster_is_level(const raster_t *raster, const raster_shape_t *shape,
+                                   raster_look_t look)
 {
-    if (look == RASTER_SMALL)
-        raster_level(raster, a, b, c, pixel);
-    else
-        raster_plane(raster, (const yb_spot_t *const[3]){a, b, c}, look, pixel, NULL);
+    return look == RASTER_SMALL && shape->left >= 0 && shape->right <= raster->screen->width &&
+           raster->screen->format != YB_MONO;
+}
+
+static inline void raster_fill(const raster_t *raster, const raster_shape_t *shape,
+                               raster_look_t look, uint16_t pixel)
+{
+    if (!raster_is_level(raster, shape, look))
+        raster_plane(raster, shape, look, pixel, NULL);
+    else if (raster_covers(raster, shape))
+        raster_level(raster, shape, pixel);
 }
 
 /* Both: looks, and draws what is in front, if there is a band. */

@@ -14,22 +14,22 @@
 
 /* An edge: its plan length in 1/128 step, foreshortened as the view does it, in the lower 16 bits;
  * its length class (yb_map_t.noise) and 4 in the next 8; how often it is to be halved in the upper
- * 8, or these.
+ * 8, or REFINE_AGAIN.
  */
 #define REFINE_ONCE ((yb_edge_t)1 << 24)
 #define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
-#define REFINE_ASK ((yb_edge_t)0xff << 24)   /* not asked yet */
 
 static inline int refine_class(yb_edge_t edge)
 {
     return (int)(edge >> 16 & 0xff) - 4;
 }
 
-/* Either half of an edge that is split. Its class is its own only if it can be split on. */
+/* Either half of an edge that is split, to be asked anew if that is REFINE_AGAIN. Its class is its
+ * own only if it can be split on.
+ */
 static inline yb_edge_t refine_half(yb_edge_t edge)
 {
-    yb_edge_t half = ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
-    return edge >= REFINE_AGAIN ? half | REFINE_ASK : half;
+    return ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
 }
 
 /* yb_spot_t.out: the sides of some rows of the screen that a point is beyond. */
@@ -56,7 +56,8 @@ typedef struct {
 
 /* Some rows of the screen: as a box on it, and as a pyramid. */
 typedef struct {
-    int32_t left_q4, right_q4, top_q4, bottom_q4; /* what is beyond one of them draws nothing */
+    int32_t left_q4, top_q4;   /* what is not in the box from here on … */
+    uint32_t wide_q4, high_q4; /* … so wide and high draws nothing */
     refine_plane_t plane[REFINE_PLANES];
 } refine_view_t;
 
@@ -66,13 +67,13 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
 /* An edge that is no half of another one. */
 yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b);
 
-/* The edge ab, which is REFINE_ASK, with its number of halvings. */
+/* The edge ab with its number of halvings, asked anew. */
 yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                      yb_edge_t edge);
 
 /* The midpoint of an edge that is split: its place, and where it is seen. */
-void refine_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                   yb_edge_t edge, yb_point_t *middle);
+void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
+                   const yb_point_t *b, yb_edge_t edge, yb_point_t *middle);
 
 /* Is nothing of some points, and of what lies between them, in the view, when each may move by
  * `stray` in height?
@@ -83,12 +84,51 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
 /* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
 int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);
 
+/* Is nothing that a triangle to be split can become in the view? Most lie in it as they are. */
+bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
+                    int beyond);
+
+static inline bool refine_part_misses(const yb_frame_t *frame, const refine_view_t *view,
+                                      const yb_part_t *part)
+{
+    const yb_point_t *const *p = part->point;
+    int some = (p[0]->spot.out | p[1]->spot.out | p[2]->spot.out) & REFINE_NOWHERE;
+    int beyond = (p[0]->spot.out & p[1]->spot.out & p[2]->spot.out) | some;
+    return beyond != 0 && refine_far_off(frame, view, part, beyond);
+}
+
 /* A base triangle, with its corners in frame->root. */
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part);
 
-/* Asks what edges of a triangle are REFINE_ASK. Is one of them split? */
-bool refine_splits(const yb_frame_t *frame, yb_part_t *part);
+/* REFINE_ONCE or more if one of a triangle's edges is split; below twice that, none of its parts
+ * is.
+ */
+static inline yb_edge_t refine_edges(const yb_part_t *part)
+{
+    return part->edge[0] | part->edge[1] | part->edge[2];
+}
+
+static inline bool refine_splits(const yb_part_t *part)
+{
+    return refine_edges(part) >= REFINE_ONCE;
+}
+
+/* Turns a triangle that is to be split so that of the edges that are split ab is the first. */
+static inline void refine_turn(yb_part_t *part)
+{
+    while (part->edge[0] < REFINE_ONCE ||
+           (part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE)) {
+        const yb_point_t *p = part->point[0];
+        yb_edge_t edge = part->edge[0];
+        part->point[0] = part->point[1];
+        part->point[1] = part->point[2];
+        part->point[2] = p;
+        part->edge[0] = part->edge[1];
+        part->edge[1] = part->edge[2];
+        part->edge[2] = edge;
+    }
+}
 
 /* Splits a triangle that is to be split: into its first part, and what is laid aside from `level`
  * on, REFINE_PIECES at most. The answer is what follows it.

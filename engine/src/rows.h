@@ -44,40 +44,16 @@ static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, ui
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
-enum {
-    CHUNK = 16 /* rows of a triangle that are drawn at once */
-};
-
-/* Of each row, the first pixel on its left side or right of it, and that of its right side: the
- * first that is not drawn any more.
+/* A triangle's sides in the rows from first up to end, at most RASTER_HIGH of them. Both triangles
+ * at an edge come to the same pixels: where the one ends and the other begins.
  */
-typedef struct {
-    int16_t left[CHUNK], right[CHUNK];
-} chunk_t;
-
-/* A triangle's sides in the rows from first up to end, at most CHUNK of them. Both triangles at an
- * edge come to the same pixels: where the one ends and the other begins.
- */
-void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, chunk_t *chunk);
+void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, raster_sides_t *sides);
 
 /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
 static inline uint16_t mean_near(const yb_spot_t *const p[3])
 {
     uint32_t sum = (uint32_t)p[0]->near + p[1]->near + p[2]->near + 1;
     return (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
-}
-
-/* The rows of the band that a triangle meets: the first, and the one after the last. */
-static inline int32_t rows_first(const raster_t *raster, const yb_spot_t *const p[3])
-{
-    int32_t top = fix_min(p[0]->y_q4, fix_min(p[1]->y_q4, p[2]->y_q4));
-    return fix_max(raster_pixel(top), raster->first_row);
-}
-
-static inline int32_t rows_end(const raster_t *raster, const yb_spot_t *const p[3])
-{
-    int32_t bottom = fix_max(p[0]->y_q4, fix_max(p[1]->y_q4, p[2]->y_q4));
-    return fix_min(raster_pixel(bottom), raster->end_row);
 }
 
 #endif

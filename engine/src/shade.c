@@ -148,7 +148,7 @@ static inline void smooth_normal(const yb_frame_t *frame, const yb_point_t *cons
 }
 
 /* The shade of a surface at a point, which may stand for a small triangle. */
-static inline int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t *normal)
+static int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t *normal)
 {
     if (!frame->view.lamp)
         return lambert(normal, frame->view.sun_q14);
@@ -165,7 +165,7 @@ static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
     find_normal(frame, p, &normal);
     if (frame->map->smooth && p[0]->z_q8 > water && p[1]->z_q8 > water && p[2]->z_q8 > water)
         smooth_normal(frame, p, &normal);
-    return lit(frame, p[0], &normal);
+    return frame->view.lamp ? lit(frame, p[0], &normal) : lambert(&normal, frame->view.sun_q14);
 }
 
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
@@ -205,9 +205,11 @@ static int hue_of(const yb_frame_t *frame, int32_t z_q8)
     return (int)fix_min((int32_t)(((uint32_t)above * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
 }
 
-uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
+/* The pixel value of a triangle that has this much light, but for shadows. */
+static inline uint16_t pixel_of(const yb_frame_t *frame, const yb_point_t *const corner[3],
+                                int32_t light)
 {
-    int32_t shade = shadowed(frame, corner, shade_of(frame, corner));
+    int32_t shade = shadowed(frame, corner, light);
     int32_t near = nearest_of(corner);
     int32_t water = frame->view.water_q8;
     if (corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water)
@@ -217,6 +219,12 @@ uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3]
     /* A third: 5461 / 2^14. */
     int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
     return colour_pixel(frame, hue_of(frame, middle), shade, near);
+}
+
+shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
+{
+    const int32_t light = shade_of(frame, corner);
+    return (shade_t){pixel_of(frame, corner, light), (uint16_t)light};
 }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
@@ -243,14 +251,14 @@ static uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int3
     return colour_pixel(frame, hue, shade, near);
 }
 
-bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t pixel,
+bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
                raster_cut_t *cut)
 {
     const yb_view_t *view = &frame->view;
     int32_t low = fix_min(p[0]->z_q8, fix_min(p[1]->z_q8, p[2]->z_q8));
     int32_t high = fix_max(p[0]->z_q8, fix_max(p[1]->z_q8, p[2]->z_q8));
     int32_t near = nearest_of(p);
-    cut->below = cut->above = pixel;
+    cut->below = cut->above = shade.pixel;
     if (low < view->water_q8) {
         if (high <= view->water_q8)
             return false;
@@ -279,7 +287,7 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t p
         return false;
     cut->interval = (int32_t)interval;
     cut->zero = 0;
-    cut->line = line_pixel(frame, HUE_LINE, shade_of(frame, p), near);
+    cut->line = line_pixel(frame, HUE_LINE, shade.light, near);
     return cut_values(p, frame->contour_low + (int32_t)line, cut);
 }
 

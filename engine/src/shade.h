@@ -6,15 +6,18 @@
 
 #include "raster.h"
 
-/* The pixel value of a triangle of the ground (or of the water, where all three corners are in
- * it).
- */
-uint16_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3]);
+/* What a triangle looks like: its pixel value, and its shade without cast shadows. */
+typedef struct {
+    uint16_t pixel, light;
+} shade_t;
 
-/* The line that a triangle of this pixel value is cut by, if there is one: the shore, or contour
+/* Of a triangle of the ground (or of the water, where all three corners are in it). */
+shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3]);
+
+/* The line that a triangle that looks like this is cut by, if there is one: the shore, or contour
  * lines.
  */
-bool shade_cut(const yb_frame_t *frame, const yb_point_t *const corner[3], uint16_t pixel,
+bool shade_cut(const yb_frame_t *frame, const yb_point_t *const corner[3], shade_t shade,
                raster_cut_t *cut);
 
 /* The pixel value of the wall below the edge ab of the frame, ground to its left. */

@@ -25,7 +25,7 @@ yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge)
                                : (edge & 0xffff) | (yb_edge_t)(class + 4) << 16 | REFINE_ONCE;
 }
 
-const refine_view_t plain_view = {INT32_MIN, INT32_MAX, INT32_MIN, INT32_MAX, {{0, 0, 0, 0, 0}}};
+const refine_view_t plain_view = {-(1 << 20), -(1 << 20), 1 << 21, 1 << 21, {{0, 0, 0, 0, 0}}};
 
 /* With twice the room that its relief may need. Without this all that lies behind the eye would be
  * refined as if it touched it.
@@ -34,7 +34,8 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
 {
     yb_part_t whole = *part;
     for (int i = 0; i < 3; i++)
-        whole.edge[i] = plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]);
+        whole.edge[i] =
+            plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]) | REFINE_AGAIN;
     int64_t stray = 2 * (int64_t)refine_stray(frame, &whole) + 256;
     int64_t lift = (int64_t)abs(frame->depth_z) * frame->view.exaggerate_q8 >> 8;
     for (int i = 0; i < 3; i++) {
@@ -51,7 +52,7 @@ static void walk(walk_t *at, yb_part_t part, int used)
 {
     if (plain_behind(at->frame, &part))
         return;
-    if (used > YB_MAX_LEVELS - REFINE_PIECES || !refine_splits(at->frame, &part)) {
+    if (used > YB_MAX_LEVELS - REFINE_PIECES || !refine_splits(&part)) {
         at->count++;
         at->fn(at->context, part.point);
         return;
@@ -84,7 +85,8 @@ typedef struct {
 static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
-    uint16_t pixel = shade_ground(drawing->frame, p);
+    const shade_t shade = shade_ground(drawing->frame, p);
+    const uint16_t pixel = shade.pixel;
     if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
     else {
@@ -92,19 +94,22 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
         const yb_spot_t *const spot[3] = {&p[0]->spot, &p[1]->spot, &p[2]->spot};
         raster_t only_look = drawing->raster;
         only_look.band = NULL;
-        raster_look_t look = raster_draw(&only_look, spot[0], spot[1], spot[2], pixel);
-        if (look == RASTER_NOTHING)
+        if (raster_draw(&only_look, spot[0], spot[1], spot[2], pixel) == RASTER_NOTHING)
             return;
-        if (drawing->frame->lines && shade_cut(drawing->frame, p, pixel, &cut))
-            raster_plane(&drawing->raster, spot, look, pixel, &cut);
+        raster_shape_t shape = {.p = {spot[0], spot[1], spot[2]}};
+        raster_look_t look = raster_front(&shape);
+        if (drawing->frame->lines && shade_cut(drawing->frame, p, shade, &cut))
+            raster_plane(&drawing->raster, &shape, look, pixel, &cut);
         else
-            raster_fill(&drawing->raster, spot[0], spot[1], spot[2], look, pixel);
+            raster_fill(&drawing->raster, &shape, look, pixel);
     }
 }
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
-    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL}};
+    raster_sides_t sides;
+    drawing_t drawing = {frame,
+                         {&frame->screen, band, 0, frame->screen.height, NULL, NULL, &sides}};
     raster_clear(&drawing.raster);
     for (int32_t y = 0; y < frame->screen.height; y++)
         raster_row(&drawing.raster, y, colour_sky(frame, y));

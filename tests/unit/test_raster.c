@@ -22,13 +22,14 @@ typedef struct {
     yb_screen_t screen;
     yb_band_t band;
     raster_t raster;
+    raster_sides_t sides;
 } page_t;
 
 static void open_page(page_t *page, yb_format_t format, int y, int rows)
 {
     page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
     page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, depth, pixels + GUARD, PITCH};
-    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
+    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL, &page->sides};
     memset(pixels, 0xa5, sizeof pixels);
     raster_clear(&page->raster);
     for (int i = 0; i < rows; i++)
@@ -324,7 +325,8 @@ static void depth_is_a_plane(void **state)
         raster_look_t look;
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        look = raster_front(&p[0], &p[1], &p[2]);
+        raster_shape_t shape = {.p = {&p[0], &p[1], &p[2]}};
+        look = raster_front(&shape);
         double error = depth_error(p);
         if (look == RASTER_SMALL) {
             check_level(p);
@@ -354,7 +356,8 @@ static void huge_triangles_fit(void **state)
     for (int round = 0; round < 2000; round++) {
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
-        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
+        raster_sides_t sides;
+        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL, &sides};
         raster_clear(&raster);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
@@ -413,10 +416,11 @@ static void lines_lie_where_they_should(void **state)
             cut.zero = rng_range(&rng, 20000, 45000);
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        const raster_look_t look = raster_front(&p[0], &p[1], &p[2]);
+        raster_shape_t shape = {.p = {&p[0], &p[1], &p[2]}};
+        const raster_look_t look = raster_front(&shape);
         if (look == RASTER_NOTHING)
             continue;
-        raster_plane(&page.raster, (const yb_spot_t *const[3]){&p[0], &p[1], &p[2]}, look, 5, &cut);
+        raster_plane(&page.raster, &shape, look, 5, &cut);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             if (depth[i] == 0)
                 continue;

@@ -55,8 +55,8 @@ static void check_edge(const yb_point_t *a, const yb_point_t *b)
         there = (plain_split(a, b, there) & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
         memset(&forth_middle, 0, sizeof forth_middle);
         memset(&back_middle, 0, sizeof back_middle);
-        refine_middle(&frame, a, b, there, &forth_middle);
-        refine_middle(&frame, b, a, there, &back_middle);
+        refine_middle(&frame, &plain_view, a, b, there, &forth_middle);
+        refine_middle(&frame, &plain_view, b, a, there, &back_middle);
         assert_memory_equal(&forth_middle, &back_middle, sizeof forth_middle);
     }
 }
@@ -103,8 +103,8 @@ static void midpoints_are_the_surfaces(void **state)
                 root.edge[i] = plain_split(root.point[i], root.point[(i + 1) % 3], root.edge[i]) |
                                REFINE_AGAIN;
                 relief_middle(&map, a, b, &truth);
-                refine_middle(&frame, root.point[i], root.point[(i + 1) % 3], root.edge[i],
-                              &middle);
+                refine_middle(&frame, &plain_view, root.point[i], root.point[(i + 1) % 3],
+                              root.edge[i], &middle);
                 assert_int_equal(middle.z_q8, truth.z_q8);
                 assert_int_equal(middle.place, relief_place(&truth));
                 assert_int_equal((int)(middle.slope & 0xffff) - 0x8000, truth.gx_q11);
@@ -140,8 +140,9 @@ typedef struct {
 static void check_point(bounds_t *bounds, const yb_point_t *point)
 {
     const yb_spot_t *spot = &point->spot;
-    bool seen = spot->near > 0 && spot->x_q4 >= 0 && spot->x_q4 < frame.screen.width * 16 &&
-                spot->y_q4 >= bounds->first_row * 16 && spot->y_q4 < bounds->end_row * 16;
+    /* From beyond the first pixels' centres on. */
+    bool seen = spot->near > 0 && spot->x_q4 > 8 && spot->x_q4 <= frame.screen.width * 16 - 8 &&
+                spot->y_q4 > bounds->first_row * 16 + 8 && spot->y_q4 <= bounds->end_row * 16 - 8;
     for (int i = 0; i < bounds->depth; i++) {
         CHECK(!bounds->out[i] || !seen, "a point at %d, %d of a triangle that is outside",
               (int)spot->x_q4, (int)spot->y_q4);
@@ -154,14 +155,15 @@ static void descend(bounds_t *bounds, yb_part_t part)
     assert_true(bounds->depth < NODES);
     if (plain_behind(&frame, &part))
         return;
-    bool splits = refine_splits(&frame, &part);
+    bool splits = refine_splits(&part);
     bounds->out[bounds->depth++] =
+        (splits && refine_part_misses(&frame, &bounds->view, &part)) ||
         refine_misses(&frame, &bounds->view, part.point, 3, refine_stray(&frame, &part));
     for (int i = 0; i < 3; i++)
         check_point(bounds, part.point[i]);
     if (splits) {
         yb_level_t rest[REFINE_PIECES];
-        yb_level_t *top = refine_split(&frame, &plain_view, &part, rest);
+        yb_level_t *top = refine_split(&frame, &bounds->view, &part, rest);
         do {
             descend(bounds, part);
         } while (refine_next(rest, &top, &part));
@@ -181,7 +183,7 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
+            refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root);
             descend(&bounds, root);
         }
     }
@@ -205,7 +207,7 @@ static void check_bins(int t, yb_part_t part)
         return;
     for (int i = 0; i < 3; i++)
         check_rows(t, part.point[i]);
-    if (!refine_splits(&frame, &part))
+    if (!refine_splits(&part))
         return;
     yb_level_t rest[REFINE_PIECES];
     yb_level_t *top = refine_split(&frame, &plain_view, &part, rest);

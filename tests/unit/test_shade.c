@@ -111,7 +111,7 @@ static void light_is_lamberts(void **state)
             begin(YB_GREY4);
         frame.view = view;
         random_triangle(&rng, p);
-        const double shade = shade_ground(&frame, corner);
+        const double shade = shade_ground(&frame, corner).pixel;
         /* Rounded down, so between the truth and one below it. */
         const double off = fabs(shade + 0.5 - true_shade(p));
         worst = off > worst ? off : worst;
@@ -145,9 +145,9 @@ static void a_lamp_shines_from_its_place(void **state)
             frame.view.sun_q14[i] = (int16_t)lround(way[i] / length * 16384);
         }
         frame.view.lamp = true;
-        const int by_lamp = shade_ground(&frame, corner);
+        const int by_lamp = shade_ground(&frame, corner).pixel;
         frame.view.lamp = false;
-        const int by_sun = shade_ground(&frame, corner);
+        const int by_sun = shade_ground(&frame, corner).pixel;
         assert_true(abs(by_lamp - by_sun) <= 1);
         beside += by_lamp != by_sun;
     }
@@ -167,12 +167,12 @@ static void shadows_dim_and_never_hide(void **state)
         const yb_point_t *const corner[3] = {&p[0], &p[1], &p[2]};
         random_triangle(&rng, p);
         frame.view.shadow = NULL;
-        const int plain = shade_ground(&frame, corner);
+        const int plain = shade_ground(&frame, corner).pixel;
         frame.view.shadow = &shadow;
         memset(lit, 0xff, sizeof lit);
-        assert_int_equal(shade_ground(&frame, corner), plain);
+        assert_int_equal(shade_ground(&frame, corner).pixel, plain);
         memset(lit, 0, sizeof lit);
-        const int dark = shade_ground(&frame, corner);
+        const int dark = shade_ground(&frame, corner).pixel;
         assert_in_range(dark, DARKEST, plain);
         assert_true(plain < DARKEST + 2 || dark < plain);
         darker += dark < plain;
@@ -263,11 +263,12 @@ static void lines_stand_out(void **state)
             const yb_point_t *const corner[3] = {&p[0], &p[1], &p[2]};
             raster_cut_t cut;
             random_triangle(&rng, p);
-            const uint16_t pixel = shade_ground(&frame, corner);
+            const shade_t shade = shade_ground(&frame, corner);
+            const uint16_t pixel = shade.pixel;
             bool crossed = false;
             for (int i = 0; i < 3; i++)
                 crossed = crossed || p[i].z_q8 / 300 != p[0].z_q8 / 300;
-            const bool cuts = shade_cut(&frame, corner, pixel, &cut);
+            const bool cuts = shade_cut(&frame, corner, shade, &cut);
             assert_true(cuts || !crossed);
             if (!cuts)
                 continue;

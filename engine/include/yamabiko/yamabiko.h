@@ -479,22 +479,23 @@ typedef struct {
     uint32_t depth_limited; /* left unsplit for want of YB_MAX_LEVELS */
 } yb_stats_t;
 
-/* A place on the screen: 1/16 pixel, x to the right and y down, and 1/depth, 65535 at the near
- * distance. near 0: behind that, or a screen size or more beyond the screen; then x is 0 and y
- * INT32_MIN. Private to the renderer, like all that follows up to yb_frame_begin.
- */
-typedef struct {
-    int32_t x_q4, y_q4;
-    uint16_t near;
-    uint8_t out; /* on which sides it is out of the band: see refine.h */
-} yb_spot_t;
-
-/* A vertex on the screen, as yb_spot_t in fewer bytes. */
 #if YB_MAX_SIDE <= 512
 typedef int16_t yb_side_t;
 #else
 typedef int32_t yb_side_t;
 #endif
+
+/* A place on the screen: 1/16 pixel, x to the right and y down, and 1/depth, 65535 at the near
+ * distance. near 0: behind that, or a screen size or more beyond the screen. Private to the
+ * renderer, like all that follows up to yb_frame_begin.
+ */
+typedef struct {
+    yb_side_t x_q4, y_q4;
+    uint16_t near;
+    uint8_t out; /* on which sides it is out of the band: see refine.h */
+} yb_spot_t;
+
+/* A vertex on the screen, as yb_spot_t in fewer bytes. */
 typedef struct {
     yb_side_t x_q4, y_q4;
     uint16_t near;
@@ -516,6 +517,7 @@ typedef uint32_t yb_edge_t;
 typedef struct {
     const yb_point_t *point[3];
     yb_edge_t edge[3];
+    int32_t bulge; /* how far the smooth surface may be from its plane */
 } yb_part_t;
 
 /* What refinement has laid aside: a part of a triangle that is split, until it is taken up, and the

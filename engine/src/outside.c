@@ -1,0 +1,254 @@
+#include "camera.h"
+#include "fix.h"
+#include "refine.h"
+#include "relief.h"
+
+/* --- What lies outside the picture ------------------------------------------------------------ */
+
+/* A slope of the picture's pyramid, in 1/256, for a line `off` sixteenths of a pixel from the
+ * middle: off / focal, rounded up. The picture lies within a slope of 2.
+ */
+static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
+{
+    return off_q4 >= 0 ? (off_q4 * 256 + frame->focal_q4 - 1) / frame->focal_q4
+                       : -(-off_q4 * 256 / frame->focal_q4);
+}
+
+enum {
+    SPARE_Q4 = 25 /* by which spots may be off where they should be */
+};
+
+void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
+{
+    /* What meets no pixel's centre draws nothing. */
+    view->left_q4 = 9;
+    view->top_q4 = first_row * 16 + 9;
+    view->wide_q4 = (uint32_t)(frame->screen.width * 16 - 16);
+    view->high_q4 = (uint32_t)((end_row - first_row) * 16 - 16);
+    int32_t wide = slope_q8(frame, frame->screen.width * 8 + SPARE_Q4);
+    int32_t middle = frame->screen.height * 8;
+    const refine_plane_t planes[REFINE_PLANES] = {
+        {.slope_q8 = 256, .near = frame->near},
+        {.right = 1, .slope_q8 = wide},
+        {.right = -1, .slope_q8 = wide},
+        {.up = -1, .slope_q8 = slope_q8(frame, middle - first_row * 16 + SPARE_Q4)},
+        {.up = 1, .slope_q8 = slope_q8(frame, end_row * 16 - middle + SPARE_Q4)},
+    };
+    int32_t up_q9 = (frame->up_z * frame->view.exaggerate_q8) >> 13;
+    int32_t deep_q9 = (frame->depth_z * frame->view.exaggerate_q8) >> 13;
+    for (int i = 0; i < REFINE_PLANES; i++) {
+        refine_plane_t *plane = &view->plane[i];
+        *plane = planes[i];
+        int32_t lift = plane->up * up_q9 + ((plane->slope_q8 * deep_q9) >> 8);
+        plane->lift_q9 = (fix_abs(lift) >> frame->eye_shift) + 2;
+    }
+}
+
+/* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0;
+ * depth < 2^18 and |slope| <= 2 * 2^8 make 2^27.
+ */
+static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
+                          const yb_point_t *const *p, int count, int32_t stray)
+{
+    camera_point_t at[4];
+    for (int k = 0; k < count; k++)
+        camera_view(frame, p[k]->place, p[k]->top_q8, &at[k]);
+    for (int i = 0; i < REFINE_PLANES; i++) {
+        const refine_plane_t *plane = &view->plane[i];
+        int32_t most = INT32_MIN;
+        for (int k = 0; k < count; k++)
+            most = fix_max(most, plane->right * at[k].right + plane->up * at[k].up +
+                                     ((at[k].depth * plane->slope_q8) >> 8) - plane->near);
+        /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
+        if (most < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12))
+            return true;
+    }
+    return false;
+}
+
+/* The box on the screen that holds some points and what lies between them, 1/16 pixel. */
+typedef struct {
+    int32_t left, right, top, bottom;
+    int32_t near; /* greatest 1/depth */
+} box_t;
+
+/* False: not all of them have spots. */
+static bool find_box(const yb_point_t *const *p, int count, box_t *box)
+{
+    box->near = 0;
+    box->left = box->top = INT32_MAX;
+    box->right = box->bottom = INT32_MIN;
+    for (int k = 0; k < count; k++) {
+        const yb_spot_t *spot = &p[k]->spot;
+        if (spot->near == 0)
+            return false;
+        box->near = fix_max(box->near, spot->near);
+        box->left = fix_min(box->left, spot->x_q4);
+        box->right = fix_max(box->right, spot->x_q4);
+        box->top = fix_min(box->top, spot->y_q4);
+        box->bottom = fix_max(box->bottom, spot->y_q4);
+    }
+    return true;
+}
+
+/* How far on the screen points of up to 1/depth `near` go that move by `stray` in height. */
+typedef struct {
+    int32_t x, y;
+} spare_t;
+
+/* False: they may come nearer by more than an eighth. */
+static inline bool find_spare(const yb_frame_t *frame, int32_t stray, int32_t near, spare_t *spare)
+{
+    if (stray >= 1 << 14 || (stray * near) >> 3 > frame->most_bend)
+        return false;
+    int32_t sway = ((stray * near) >> 10) + 1;
+    int32_t least = SPARE_Q4 + (near * frame->spare_q4 >> 16);
+    spare->x = (sway * frame->sway_x_q4 >> frame->lift_shift) + least;
+    spare->y = (sway * frame->sway_y_q4 >> frame->lift_shift) + least;
+    return true;
+}
+
+static void widen_box(const spare_t *spare, box_t *box)
+{
+    box->left -= spare->x;
+    box->right += spare->x;
+    box->top -= spare->y;
+    box->bottom += spare->y;
+}
+
+static inline int32_t right_of(const refine_view_t *view)
+{
+    return view->left_q4 + (int32_t)view->wide_q4 - 1;
+}
+
+static inline int32_t bottom_of(const refine_view_t *view)
+{
+    return view->top_q4 + (int32_t)view->high_q4 - 1;
+}
+
+static inline bool box_misses(const refine_view_t *view, const box_t *box)
+{
+    return box->bottom < view->top_q4 || box->top > bottom_of(view) || box->right < view->left_q4 ||
+           box->left > right_of(view);
+}
+
+bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
+                   int count, int32_t stray)
+{
+    box_t box;
+    spare_t spare;
+    if (!find_box(p, count, &box) || !find_spare(frame, stray, box.near, &spare))
+        return misses_planes(frame, view, p, count, stray);
+    widen_box(&spare, &box);
+    return box_misses(view, &box);
+}
+
+/* --- How far triangles may go ----------------------------------------------------------------- */
+
+/* How far refinement can move a point of a triangle of which some edges are split. Each part of an
+ * edge is of a class four lower and halved once less, and so is what is split inside the triangle:
+ * a point moves by the noise of each class once. (relief_reach counts it twice.)
+ */
+static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
+{
+    const yb_map_t *map = frame->map;
+    yb_edge_t often = 0;
+    yb_edge_t longest = 0;
+    for (int i = 0; i < 3; i++) {
+        yb_edge_t edge = part->edge[i];
+        if (edge >= REFINE_ONCE && (edge & 0xff0000) > longest)
+            longest = edge & 0xff0000;
+        often |= edge;
+    }
+    int class = refine_class(longest);
+    int32_t stray = part->bulge + 16; /* rounding of 16 levels adds at most as many units */
+    if (often < 2 * REFINE_ONCE)
+        return stray + (map->noise[class] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
+    int count = (int)(often >> 24); /* or more */
+    const relief_bound_t bound = {0, class};
+    return stray + (relief_reach(map, &bound, class + 4 - 4 * count) >> 1) + 1;
+}
+
+int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
+{
+    const yb_point_t *const *p = part->point;
+    int32_t stray = refine_edges(part) >= REFINE_ONCE ? limited_stray(frame, part) : 0;
+    /* What is above the water may sink to it where the ground between dips under it. */
+    int32_t water = frame->view.water_q8;
+    if (p[0]->z_q8 < water || p[1]->z_q8 < water || p[2]->z_q8 < water)
+        stray = fix_max(stray, fix_max(p[0]->top_q8, fix_max(p[1]->top_q8, p[2]->top_q8)) - water);
+    return stray;
+}
+
+/* find_spare, of a triangle all of whose corners have spots. If none of it changes its depth by
+ * more than a 64th, all midpoints are made from the spots of their ends: what they may be off from
+ * where they should be does not matter, only the rounding of each level.
+ */
+static bool find_part_spare(const yb_frame_t *frame, const yb_part_t *part, int32_t stray,
+                            int32_t near, spare_t *spare)
+{
+    if (stray >= 1 << 14 || stray * near > frame->most_bend)
+        return find_spare(frame, stray, near, spare);
+    int32_t levels = fix_min((int32_t)(refine_edges(part) >> 24), 16) + 1;
+    spare->x = levels;
+    spare->y = (((stray * near >> 10) + levels) * frame->lift >> frame->lift_shift) + levels;
+    return true;
+}
+
+/* Are three spots that are `beyond` some sides of the view farther away than `spare` from one? */
+static bool farther(const refine_view_t *view, const yb_point_t *const p[3], int beyond,
+                    const spare_t *spare)
+{
+    const yb_spot_t *a = &p[0]->spot;
+    const yb_spot_t *b = &p[1]->spot;
+    const yb_spot_t *c = &p[2]->spot;
+    return ((beyond & REFINE_ABOVE) != 0 &&
+            view->top_q4 - fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4)) > spare->y) ||
+           ((beyond & REFINE_BELOW) != 0 &&
+            fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4)) - bottom_of(view) > spare->y) ||
+           ((beyond & REFINE_LEFT) != 0 &&
+            view->left_q4 - fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4)) > spare->x) ||
+           ((beyond & REFINE_RIGHT) != 0 &&
+            fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4)) - right_of(view) > spare->x);
+}
+
+/* Is nothing that a triangle can become in the view? Most lie in it as they are. Of one whose
+ * corners are all beyond one side, such a side is enough: is it farther away than any of it can
+ * come?
+ */
+bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
+                    int beyond)
+{
+    const yb_point_t *const *p = part->point;
+    if (beyond >= REFINE_NOWHERE)
+        return refine_misses(frame, view, p, 3, refine_stray(frame, part));
+    int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
+    int32_t stray = refine_stray(frame, part);
+    spare_t spare;
+    if (!find_part_spare(frame, part, stray, near, &spare))
+        return misses_planes(frame, view, p, 3, stray);
+    return farther(view, p, beyond, &spare);
+}
+
+/* --- Rows ------------------------------------------------------------------------------------- */
+
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
+{
+    yb_part_t part;
+    refine_root(frame, whole, triangle, &part);
+    int32_t stray = refine_stray(frame, &part);
+    int32_t last = frame->screen.height - 1;
+    int32_t first = 0;
+    box_t box;
+    spare_t spare;
+    if (refine_misses(frame, whole, part.point, 3, stray)) {
+        first = last;
+        last = 0;
+    } else if (find_box(part.point, 3, &box) &&
+               find_part_spare(frame, &part, stray, box.near, &spare)) {
+        widen_box(&spare, &box);
+        first = fix_clamp(box.top >> 4, 0, last);
+        last = fix_clamp(box.bottom >> 4, 0, last);
+    }
+    frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
+}
