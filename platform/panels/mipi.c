@@ -39,11 +39,6 @@ enum {
     PAUSE_MS = 120,
 };
 
-static bool lies_across(const yb_display_t *display)
-{
-    return display->turn == YB_TURN_90 || display->turn == YB_TURN_270;
-}
-
 static bool columns_backwards(const yb_display_t *display)
 {
     return display->turn == YB_TURN_90 || display->turn == YB_TURN_180;
@@ -68,7 +63,7 @@ static bool set_address_mode(const yb_display_t *display)
         mode |= MODE_MX;
     if (((flags & YB_PANEL_MIRROR_Y) != 0) != rows_backwards(display))
         mode |= MODE_MY;
-    if (lies_across(display))
+    if (yb_turn_lies_across(display->turn))
         mode |= MODE_MV;
     if ((flags & YB_PANEL_BGR) != 0)
         mode |= MODE_BGR;
@@ -95,7 +90,7 @@ static bool set_window(const yb_display_t *display, uint16_t x, uint16_t y, uint
         rows_backwards(display)
             ? (uint16_t)(panel->ram_height - panel->screen.height - panel->ram_y)
             : panel->ram_y;
-    const bool swap = lies_across(display);
+    const bool swap = yb_turn_lies_across(display->turn);
 
     x = (uint16_t)(x + (swap ? rows_before : columns_before));
     y = (uint16_t)(y + (swap ? columns_before : rows_before));

@@ -6,15 +6,10 @@
 
 /* ---- Displays ----------------------------------------------------------------------------- */
 
-static bool lies_across(const yb_display_t *display)
-{
-    return display->turn == YB_TURN_90 || display->turn == YB_TURN_270;
-}
-
 yb_screen_t yb_display_screen(const yb_display_t *display)
 {
     yb_screen_t screen = display->panel->screen;
-    if (lies_across(display)) {
+    if (yb_turn_lies_across(display->turn)) {
         screen.width = display->panel->screen.height;
         screen.height = display->panel->screen.width;
     }
@@ -23,12 +18,12 @@ yb_screen_t yb_display_screen(const yb_display_t *display)
 
 uint16_t yb_display_x_step(const yb_display_t *display)
 {
-    return lies_across(display) ? display->panel->y_step : display->panel->x_step;
+    return yb_turn_lies_across(display->turn) ? display->panel->y_step : display->panel->x_step;
 }
 
 uint16_t yb_display_y_step(const yb_display_t *display)
 {
-    return lies_across(display) ? display->panel->x_step : display->panel->y_step;
+    return yb_turn_lies_across(display->turn) ? display->panel->x_step : display->panel->y_step;
 }
 
 bool yb_display_start(yb_display_t *display)

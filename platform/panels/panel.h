@@ -80,6 +80,17 @@ typedef struct {
     size_t pitch_bytes;    /* from one row to the next */
 } yb_panel_window_t;
 
+static inline bool yb_turn_lies_across(yb_turn_t turn)
+{
+    return turn == YB_TURN_90 || turn == YB_TURN_270;
+}
+
+/* Bits of a pixel. */
+static inline uint8_t yb_pixel_bits(yb_format_t format)
+{
+    return format == YB_MONO ? 1 : format == YB_GREY4 ? 4 : 16;
+}
+
 typedef struct yb_display yb_display_t;
 
 /* What a family of controllers does. Windows have been checked before they come here. */

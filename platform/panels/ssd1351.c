@@ -84,17 +84,12 @@ static const uint8_t setup[] = {
 };
 /* clang-format on */
 
-static bool lies_across(const yb_display_t *display)
-{
-    return display->turn == YB_TURN_90 || display->turn == YB_TURN_270;
-}
-
 static bool set_window(const yb_display_t *display, uint16_t x, uint16_t y, uint16_t width,
                        uint16_t rows)
 {
     const uint8_t across[] = {(uint8_t)x, (uint8_t)(x + width - 1)};
     const uint8_t down[] = {(uint8_t)y, (uint8_t)(y + rows - 1)};
-    const bool swap = lies_across(display);
+    const bool swap = yb_turn_lies_across(display->turn);
 
     return yb_panel_send(display, SET_COLUMNS, swap ? down : across, 2, true) &&
            yb_panel_send(display, SET_ROWS, swap ? across : down, 2, true) &&

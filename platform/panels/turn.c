@@ -2,11 +2,6 @@
 
 #include <string.h>
 
-static unsigned bits_of(const yb_screen_t *screen)
-{
-    return screen->format == YB_MONO ? 1 : screen->format == YB_GREY4 ? 4 : 16;
-}
-
 /* Pixel x of a row, leftmost in the highest bits of a byte. */
 static unsigned pixel_at(unsigned bits, const uint8_t *row, unsigned x)
 {
@@ -30,10 +25,10 @@ static void put_pixel(unsigned bits, uint8_t *row, unsigned x, unsigned pixel)
 
 void yb_turn_picture(const yb_screen_t *screen, yb_turn_t turn, const uint8_t *from, uint8_t *to)
 {
-    const bool across = turn == YB_TURN_90 || turn == YB_TURN_270;
+    const bool across = yb_turn_lies_across(turn);
     const yb_screen_t turned = {across ? screen->height : screen->width,
                                 across ? screen->width : screen->height, screen->format};
-    const unsigned bits = bits_of(screen);
+    const unsigned bits = yb_pixel_bits(screen->format);
     const size_t from_pitch = yb_screen_pitch(screen);
     const size_t to_pitch = yb_screen_pitch(&turned);
 

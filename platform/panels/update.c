@@ -154,9 +154,7 @@ static search_t search_of(yb_update_t *update, const yb_screen_t *screen)
 {
     search_t search = {.update = update,
                        .pitch = yb_screen_pitch(screen),
-                       .pixel_bits = screen->format == YB_MONO    ? 1
-                                     : screen->format == YB_GREY4 ? 4
-                                                                  : 16,
+                       .pixel_bits = yb_pixel_bits(screen->format),
                        .x_step = yb_display_x_step(update->display),
                        .y_step = yb_display_y_step(update->display),
                        .well = true};

@@ -358,7 +358,7 @@ static uint16_t random_stretch(uint16_t size, uint16_t step, uint16_t *from)
 
 static size_t bits_of(const yb_screen_t *screen, uint16_t width)
 {
-    return (size_t)width * (screen->format == YB_MONO ? 1 : screen->format == YB_GREY4 ? 4 : 16);
+    return (size_t)width * yb_pixel_bits(screen->format);
 }
 
 static void copy_bits(uint8_t *to, const uint8_t *from, size_t first, size_t count)
