@@ -192,7 +192,9 @@ int cli_config_read(cli_config_t *config, const struct option *options, int argc
     cli_config_t maps = {0};
     *config = (cli_config_t){0};
     int status = add_all(config, 1, argv) ? CLI_OK : cli_fail("out of memory");
-    for (int i = 1; status == CLI_OK && i < argc && strcmp(argv[i], "--") != 0; i++) {
+    for (int i = 1; status == CLI_OK && i < argc; i++) {
+        if (argv[i] == NULL || strcmp(argv[i], "--") == 0)
+            break; /* what follows are maps */
         const char *path = config_at(argc, argv, i);
         if (path != NULL)
             status = read_file(config, &maps, options, path);
