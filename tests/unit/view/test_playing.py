@@ -1,11 +1,15 @@
 """The verbs that play maps on a panel, without one: sim headless and in a window that nobody sees, and
 what show says before it reaches for any wire."""
 
+import fcntl
 import json
 import os
 import pathlib
+import pty
+import signal
 import subprocess
 import tempfile
+import termios
 import threading
 import time
 import unittest
@@ -224,6 +228,39 @@ class Window(Case):
     def test_no_desktop(self):
         self.refused(1, "no window can be opened here", "sim", FUJI, "--panel", "st7789",
                      SDL_VIDEODRIVER="no such driver")
+
+
+class Terminal(Case):
+    """show, while it waits for a panel that is not there."""
+
+    WORDS = ("show", FUJI, "--panel", "st7789", "--bus", "gpiod", "--gpiochip", "gpiochip987",
+             "--sck", 1, "--mosi", 2, "--cs", 3, "--dc", 4, "--retry")
+
+    def play(self, end):
+        """Runs it on a terminal, ends it by `end`, and answers its exit code."""
+        master, slave = pty.openpty()
+        before = termios.tcgetattr(slave)
+        process = subprocess.Popen([YAMABIKO, *map(str, self.WORDS)], stdin=slave,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                   start_new_session=True,
+                                   preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+        self.assertIn(b"gpiochip987", process.stderr.readline())
+        self.assertIn(b"trying again in 1 s", process.stderr.readline())
+        self.assertNotEqual(termios.tcgetattr(slave), before)
+        end(master, process)
+        status = process.wait(timeout=10)
+        self.assertEqual(termios.tcgetattr(slave), before)
+        process.stderr.close()
+        os.close(master)
+        os.close(slave)
+        return status
+
+    def test_a_key_ends_it(self):
+        self.assertEqual(self.play(lambda master, process: os.write(master, b"q")), 0)
+
+    def test_signals_end_it(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGHUP):
+            self.assertEqual(self.play(lambda master, process: process.send_signal(number)), 0)
 
 
 class Wrong(Case):
