@@ -10,7 +10,7 @@ install(TARGETS yb_api yb_engine EXPORT yamabikoTargets)
 install(DIRECTORY engine/include/yamabiko DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET yb_panels)
     install(TARGETS yb_panels EXPORT yamabikoTargets)
-    install(FILES platform/panels/panel.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yamabiko)
+    install(FILES platform/panels/panel.h platform/panels/update.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yamabiko)
 endif()
 
 install(EXPORT yamabikoTargets NAMESPACE yamabiko:: DESTINATION ${package_dir})

@@ -176,6 +176,11 @@ class Config(Case):
                          self.rendered(DAVOS, "--panel", "st7735", "--turn", 90, "--azimuth", 46,
                                        "--sun", 200, 20, "--shadows", 64))
 
+    def test_the_example(self):
+        # All of it is understood; there are no maps where it says.
+        example = MAPS.parent / "examples/kiosk/kiosk.ini"
+        self.refused(1, "/usr/local/share/yamabiko/maps", "show", "--config", example)
+
     def test_wrong_files(self):
         for code, sentence, text in (
                 (2, "line 2: 'colour' is no option here", "panel = ssd0323\ncolour = red\n"),
