@@ -77,6 +77,8 @@ static void help(void)
         "  --scale N           pixels of the desktop to one of the panel (default: what fits)\n"
         "  --full-screen       fill the screen; F11 goes there and back\n"
         "  --png FILE          the last frame as a PNG file; F12 writes shot-1.png and so on\n"
+        "  --record FILE       what went over the wires, a line a transfer: 'command 2a',\n"
+        "                      'data 00 ef'\n"
         "  --force             overwrite what exists\n"
         "  --fast              no slower than the PC can: wires take no time\n"
         "  --help              this text\n"
