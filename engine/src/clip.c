@@ -50,7 +50,8 @@ static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int pl
     return corner->spot != NULL && inside < 0 ? 0 : inside;
 }
 
-/* Where the way from p, `from` inside, to q, `to` outside, meets the plane. */
+/* Where the way from p, `from` inside, to q, `to` outside, meets the plane: at p itself if it was
+ * only taken for inside. */
 static void cut(const corner_t *p, const corner_t *q, int64_t from, int64_t to, corner_t *cut_at)
 {
     const camera_point_t *a = &p->at;
@@ -59,7 +60,17 @@ static void cut(const corner_t *p, const corner_t *q, int64_t from, int64_t to, 
     cut_at->at.right = a->right + (int32_t)(((b->right - a->right) * part_q20) >> 20);
     cut_at->at.up = a->up + (int32_t)(((b->up - a->up) * part_q20) >> 20);
     cut_at->at.depth = a->depth + (int32_t)(((b->depth - a->depth) * part_q20) >> 20);
-    cut_at->spot = NULL;
+    cut_at->spot = from == 0 ? p->spot : NULL;
+}
+
+/* A corner with a spot may lie a little beyond a plane that it counts as inside of, and so may what
+ * is cut between it and another: camera_project wants the pyramid itself. Both are off the screen.
+ */
+static void clip_project(const yb_frame_t *frame, camera_point_t at, yb_spot_t *spot)
+{
+    at.right = fix_clamp(at.right, -2 * at.depth, 2 * at.depth);
+    at.up = fix_clamp(at.up, -2 * at.depth, 2 * at.depth);
+    camera_project(frame, &at, spot);
 }
 
 /* Cuts off what is outside a plane, in place: a convex polygon leaves a plane's inner side once, so
@@ -106,7 +117,7 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
         if (from->spot != NULL)
             *to = *from->spot;
         else
-            camera_project(frame, &from->at, to);
+            clip_project(frame, from->at, to);
         if (i < 2)
             continue;
         if (raster_draw(raster, &fan[0], &fan[1], &fan[2], pixel) != RASTER_NOTHING)
