@@ -50,8 +50,7 @@ static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int pl
     return corner->spot != NULL && inside < 0 ? 0 : inside;
 }
 
-/* Where the way from p, `from` inside, to q, `to` outside, meets the plane: at p itself if it was
- * only taken for inside. */
+/* Where the way from p, `from` inside, to q, `to` outside, meets the plane. */
 static void cut(const corner_t *p, const corner_t *q, int64_t from, int64_t to, corner_t *cut_at)
 {
     const camera_point_t *a = &p->at;
@@ -60,17 +59,7 @@ static void cut(const corner_t *p, const corner_t *q, int64_t from, int64_t to, 
     cut_at->at.right = a->right + (int32_t)(((b->right - a->right) * part_q20) >> 20);
     cut_at->at.up = a->up + (int32_t)(((b->up - a->up) * part_q20) >> 20);
     cut_at->at.depth = a->depth + (int32_t)(((b->depth - a->depth) * part_q20) >> 20);
-    cut_at->spot = from == 0 ? p->spot : NULL;
-}
-
-/* A corner with a spot may lie a little beyond a plane that it counts as inside of, and so may what
- * is cut between it and another: camera_project wants the pyramid itself. Both are off the screen.
- */
-static void clip_project(const yb_frame_t *frame, camera_point_t at, yb_spot_t *spot)
-{
-    at.right = fix_clamp(at.right, -2 * at.depth, 2 * at.depth);
-    at.up = fix_clamp(at.up, -2 * at.depth, 2 * at.depth);
-    camera_project(frame, &at, spot);
+    cut_at->spot = NULL;
 }
 
 /* Cuts off what is outside a plane, in place: a convex polygon leaves a plane's inner side once, so
@@ -98,6 +87,19 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
     }
 }
 
+/* A corner with a spot may lie beyond a plane that it counts as inside of, and so may what was cut
+ * between it and another: camera_project wants the pyramid itself. Both are off the screen, and
+ * triangles with a common edge cut it alike.
+ */
+static void keep_in_pyramid(polygon_t *polygon)
+{
+    for (int i = 0; i < polygon->count; i++) {
+        camera_point_t *at = &polygon->corner[i].at;
+        at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
+        at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
+    }
+}
+
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
                uint16_t pixel)
 {
@@ -109,6 +111,7 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
     }
     for (int plane = 0; plane < PLANES && polygon.count > 0; plane++)
         clip_plane(frame, &polygon, plane);
+    keep_in_pyramid(&polygon);
     yb_spot_t fan[3];
     bool drawn = false;
     for (int i = 0; i < polygon.count; i++) {
@@ -117,7 +120,7 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
         if (from->spot != NULL)
             *to = *from->spot;
         else
-            clip_project(frame, from->at, to);
+            camera_project(frame, &from->at, to);
         if (i < 2)
             continue;
         if (raster_draw(raster, &fan[0], &fan[1], &fan[2], pixel) != RASTER_NOTHING)
