@@ -21,11 +21,6 @@ static size_t sent_bytes, sent_windows, fail_after;
 static const yb_panel_window_t *pending; /* pixels that DMA has not fetched yet */
 static yb_panel_window_t pending_window;
 
-static size_t pixel_bits(yb_format_t format)
-{
-    return format == YB_MONO ? 1 : format == YB_GREY4 ? 4 : 16;
-}
-
 /* Bit by bit, so that any window can be told from its neighbours. */
 static bool fetch(void *context)
 {
@@ -33,7 +28,7 @@ static bool fetch(void *context)
     const yb_screen_t screen = yb_display_screen(display);
     if (pending == NULL)
         return true;
-    const size_t bits = pixel_bits(screen.format), first = pending->x * bits % 8;
+    const size_t bits = yb_pixel_bits(screen.format), first = pending->x * bits % 8;
     for (size_t row = 0; row < pending->rows; row++) {
         const uint8_t *from = pending->pixels + row * pending->pitch_bytes;
         uint8_t *to = glass + (pending->y + row) * yb_screen_pitch(&screen) + pending->x * bits / 8;
@@ -58,8 +53,9 @@ static bool test_write(yb_display_t *display, const yb_panel_window_t *window)
     if (sent_windows >= fail_after)
         return false;
     sent_windows++;
-    sent_bytes += display->panel->window_bytes +
-                  window->rows * window->width * pixel_bits(display->panel->screen.format) / 8;
+    const size_t pixels = (size_t)window->rows * window->width;
+    sent_bytes +=
+        display->panel->window_bytes + pixels * yb_pixel_bits(display->panel->screen.format) / 8;
     pending_window = *window;
     pending = &pending_window;
     return true;
