@@ -11,7 +11,7 @@
 #include "code_file.h"
 #include "compact_code.h"
 #include "contour_code.h"
-#include "info_panel.h"
+#include "panels.h"
 #include "part.h"
 
 enum {

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "cli.h"
+#include "panels.h"
 
 enum {
     BANDS = 8, /* in a frame, about */
@@ -38,16 +39,7 @@ cli_play_t cli_play_default(void)
 
 bool cli_play_owns(int answer)
 {
-    return answer >= CLI_PLAY_PANEL && answer < CLI_PLAY_END;
-}
-
-static int take_turn(cli_play_t *play)
-{
-    long degrees = 0;
-    if (!cli_integer(optarg, 0, 270, &degrees) || degrees % 90 != 0)
-        return cli_usage("--turn: '%s' is not 0, 90, 180 or 270", optarg);
-    play->turn = (yb_turn_t)(degrees / 90);
-    return CLI_OK;
+    return (answer >= CLI_PLAY_PANEL && answer < CLI_PLAY_END) || yb_view_options_owns(answer);
 }
 
 static int take_number(const char *name, double low, double high, double *value)
@@ -61,17 +53,18 @@ static int take_number(const char *name, double low, double high, double *value)
     return CLI_OK;
 }
 
-int cli_play_take(cli_play_t *play, int answer)
+int cli_play_take(cli_play_t *play, int answer, int argc, char **argv)
 {
+    yb_error_t error;
+    if (yb_view_options_owns(answer))
+        return yb_view_options_take(&play->view, answer, argc, argv, &error)
+                   ? CLI_OK
+                   : cli_usage("%s", error.text);
     switch (answer) {
     case CLI_PLAY_PANEL:
-        play->panel = yb_panel_find(optarg);
-        return play->panel != NULL
-                   ? CLI_OK
-                   : cli_usage("there is no panel '%s'; 'yamabiko info --panel' lists them",
-                               optarg);
+        return cli_take_panel(optarg, &play->panel);
     case CLI_PLAY_TURN:
-        return take_turn(play);
+        return cli_take_turn(optarg, &play->turn);
     case CLI_PLAY_ORBIT:
         return take_number("orbit", -180, 180, &play->orbit_deg);
     case CLI_PLAY_SPIN_SUN:

@@ -1,4 +1,5 @@
-/* What verbs that play maps on a panel share (show, sim): options, and the loop over the frames. */
+/* What verbs that play maps on a panel share (show, sim): options, those of the view among them,
+ * and the loop over the frames. */
 #ifndef YB_CLI_PLAY_H
 #define YB_CLI_PLAY_H
 
@@ -35,7 +36,8 @@ enum {
     {"invert", no_argument, NULL, CLI_PLAY_INVERT},                     \
     {"whole", no_argument, NULL, CLI_PLAY_WHOLE},                       \
     {"stats", no_argument, NULL, CLI_PLAY_STATS},                       \
-    {"config", required_argument, NULL, CLI_PLAY_CONFIG}
+    {"config", required_argument, NULL, CLI_PLAY_CONFIG},               \
+    YB_VIEW_LONG_OPTIONS
 /* clang-format on */
 
 /* Starts as cli_play_default(). */
@@ -55,7 +57,7 @@ cli_play_t cli_play_default(void);
 extern const char cli_play_help[];
 
 bool cli_play_owns(int answer);
-int cli_play_take(cli_play_t *play, int answer);
+int cli_play_take(cli_play_t *play, int answer, int argc, char **argv);
 
 /* After the last option. CLI_OK or CLI_USAGE, said. */
 int cli_play_check(cli_play_t *play);

@@ -6,12 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <panel.h>
-
 #include "code_file.h"
 #include "numbered.h"
 #include "outlet.h"
 #include "output.h"
+#include "panels.h"
 #include "part.h"
 #include "picture.h"
 #include "still.h"
@@ -41,7 +40,7 @@ typedef struct {
     const char *input, *output;
     cli_part_t part;
     const yb_panel_t *panel;
-    long turn_deg;
+    yb_turn_t turn;
     long orbit;
     bool json, force, help;
     yb_view_options_t view;
@@ -98,15 +97,9 @@ static int take(request_t *request, int answer, int argc, char **argv)
         request->output = optarg;
         return CLI_OK;
     case OPTION_PANEL:
-        request->panel = yb_panel_find(optarg);
-        return request->panel != NULL
-                   ? CLI_OK
-                   : cli_usage("there is no panel '%s'; 'yamabiko info --panel' lists them",
-                               optarg);
+        return cli_take_panel(optarg, &request->panel);
     case OPTION_TURN:
-        return cli_integer(optarg, 0, 270, &request->turn_deg) && request->turn_deg % 90 == 0
-                   ? CLI_OK
-                   : cli_usage("--turn: '%s' is not 0, 90, 180 or 270", optarg);
+        return cli_take_turn(optarg, &request->turn);
     case OPTION_ORBIT:
         if (!cli_integer(optarg, 1, 3600, &request->orbit))
             return cli_usage("--orbit: '%s' is not a whole number from 1 to 3600", optarg);
@@ -143,11 +136,10 @@ static int check(request_t *request)
     if (request->json && request->orbit == 0 && request->output[0] == '-' &&
         request->output[1] == '\0')
         return cli_usage("--json and '-o -' both want the standard output");
-    if (request->turn_deg != 0 && request->panel == NULL)
+    if (request->turn != YB_TURN_0 && request->panel == NULL)
         return cli_usage("--turn is for a panel: name it by --panel");
     if (request->panel != NULL) {
-        const yb_screen_t screen =
-            yb_outlet_screen(request->panel, (yb_turn_t)(request->turn_deg / 90));
+        const yb_screen_t screen = yb_outlet_screen(request->panel, request->turn);
         yb_view_options_panel(&request->view, &screen);
     }
     if (!yb_view_options_check(view, &error))

@@ -54,7 +54,6 @@ static const struct option options[] = {{"bus", required_argument, NULL, OPTION_
                                         {"once", no_argument, NULL, OPTION_ONCE},
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         CLI_PLAY_LONG_OPTIONS,
-                                        YB_VIEW_LONG_OPTIONS,
                                         {0}};
 
 typedef struct {
@@ -191,14 +190,8 @@ static int take_wire(yb_linux_wiring_t *wiring, int answer, int argc, char **arg
 
 static int take(request_t *request, int answer, int argc, char **argv)
 {
-    yb_error_t error;
     if (cli_play_owns(answer))
-        return cli_play_take(&request->play, answer);
-    if (yb_view_options_owns(answer)) {
-        if (!yb_view_options_take(&request->play.view, answer, argc, argv, &error))
-            return cli_usage("%s", error.text);
-        return CLI_OK;
-    }
+        return cli_play_take(&request->play, answer, argc, argv);
     switch (answer) {
     case OPTION_BUS:
         return take_bus(request);

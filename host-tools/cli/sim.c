@@ -38,7 +38,6 @@ static const struct option options[] = {{"scale", required_argument, NULL, OPTIO
                                         {"fast", no_argument, NULL, OPTION_FAST},
                                         {"help", no_argument, NULL, OPTION_HELP},
                                         CLI_PLAY_LONG_OPTIONS,
-                                        YB_VIEW_LONG_OPTIONS,
                                         {0}};
 
 typedef struct {
@@ -102,14 +101,8 @@ static void help(void)
 
 static int take(request_t *request, int answer, int argc, char **argv)
 {
-    yb_error_t error;
     if (cli_play_owns(answer))
-        return cli_play_take(&request->play, answer);
-    if (yb_view_options_owns(answer)) {
-        if (!yb_view_options_take(&request->play.view, answer, argc, argv, &error))
-            return cli_usage("%s", error.text);
-        return CLI_OK;
-    }
+        return cli_play_take(&request->play, answer, argc, argv);
     switch (answer) {
     case OPTION_SCALE:
         return cli_integer(optarg, 1, 32, &request->scale)

@@ -1,12 +1,27 @@
-#include "info_panel.h"
+#include "panels.h"
 
 #include <jansson.h>
 #include <stdio.h>
 
-#include <panel.h>
-
 #include "cli.h"
 #include "view_options.h"
+
+int cli_take_panel(const char *name, const yb_panel_t **panel)
+{
+    *panel = yb_panel_find(name);
+    return *panel != NULL
+               ? CLI_OK
+               : cli_usage("there is no panel '%s'; 'yamabiko info --panel' lists them", name);
+}
+
+int cli_take_turn(const char *text, yb_turn_t *turn)
+{
+    long degrees = 0;
+    if (!cli_integer(text, 0, 270, &degrees) || degrees % 90 != 0)
+        return cli_usage("--turn: '%s' is not 0, 90, 180 or 270", text);
+    *turn = (yb_turn_t)(degrees / 90);
+    return CLI_OK;
+}
 
 static double frames_per_second(const yb_panel_t *panel)
 {
@@ -45,21 +60,21 @@ static json_t *panel_json(const yb_panel_t *panel)
 
 int cli_info_panels(char **names, int count, bool json)
 {
-    json_t *root = json_array();
+    const yb_panel_t *panel = NULL;
     for (int i = 0; i < count; i++) {
-        if (yb_panel_find(names[i]) == NULL) {
-            json_decref(root);
-            return cli_usage("there is no panel '%s'; 'yamabiko info --panel' lists them",
-                             names[i]);
-        }
+        const int status = cli_take_panel(names[i], &panel);
+        if (status != CLI_OK)
+            return status;
     }
+    json_t *root = json_array();
     if (!json)
         puts("panel            size     pixels  chip turns     clock    bytes  frames\n"
              "                                                  MHz  a frame    a s");
-    const yb_panel_t *panel = NULL;
-    for (size_t i = 0; (panel = count > 0 ? (i < (size_t)count ? yb_panel_find(names[i]) : NULL)
-                                          : yb_panel_at(i)) != NULL;
-         i++) {
+    const size_t panels = count > 0 ? (size_t)count : SIZE_MAX;
+    for (size_t i = 0; i < panels; i++) {
+        panel = count > 0 ? yb_panel_find(names[i]) : yb_panel_at(i);
+        if (panel == NULL)
+            break; /* the last of all */
         if (json)
             json_array_append_new(root, panel_json(panel));
         else
