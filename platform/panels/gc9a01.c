@@ -83,7 +83,6 @@ static const uint8_t setup[] = {
 const yb_panel_t yb_panel_gc9a01 = {
     .name = "gc9a01",
     .title = "Galaxycore GC9A01, 240 x 240 round IPS TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 240, .height = 240, .format = YB_RGB565},
     /* Datasheet, "Display Serial Interface Timing Characteristics (4-line SPI system)": a write
      * cycle takes 10 ns. */
@@ -91,10 +90,5 @@ const yb_panel_t yb_panel_gc9a01 = {
     .ram_width = 240,
     .ram_height = 240,
     .flags = YB_PANEL_BGR | YB_PANEL_INVERTED,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };

@@ -58,7 +58,6 @@ static const uint8_t setup[] = {
 const yb_panel_t yb_panel_ili9341 = {
     .name = "ili9341",
     .title = "Ilitek ILI9341, 240 x 320 TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 240, .height = 320, .format = YB_RGB565},
     /* Datasheet, "Display Serial Interface Timing Characteristics (4-line SPI system)": a write
      * cycle takes 100 ns. Glasses are commonly run at several times that. */
@@ -66,10 +65,5 @@ const yb_panel_t yb_panel_ili9341 = {
     .ram_width = 240,
     .ram_height = 320,
     .flags = YB_PANEL_MIRROR_X | YB_PANEL_BGR,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };

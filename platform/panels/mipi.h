@@ -11,10 +11,14 @@
 #include "panel_driver.h"
 
 enum {
-    YB_MIPI_TURNS = 0x0F,       /* all four */
-    YB_MIPI_WINDOW_BYTES = 11,  /* 2Ah and 2Bh with four arguments each, 2Ch */
     YB_MIPI_PIXEL_FORMAT = 0x3A /* argument 05h or, on chips that have an RGB interface, 55h */
 };
+
+/* What the descriptions of all such panels say alike: all four turns, single pixels, and a window
+ * by 2Ah and 2Bh with four arguments each and 2Ch. */
+#define YB_MIPI_PANEL(table)                                                                       \
+    .driver = &yb_panel_mipi, .turns = 0x0F, .x_step = 1, .y_step = 1, .window_bytes = 11,         \
+    .setup = (table), .setup_bytes = sizeof(table)
 
 extern const yb_panel_driver_t yb_panel_mipi;
 

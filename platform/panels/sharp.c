@@ -104,53 +104,32 @@ static const yb_panel_driver_t driver = {
     .tick = sharp_tick,
 };
 
+/* What the descriptions of all of them say alike; a window is whole lines. */
+#define MEMORY_LCD(wide, high)                                                                     \
+    .driver = &driver, .screen = {.width = (wide), .height = (high), .format = YB_MONO},           \
+    .ram_width = (wide), .ram_height = (high), .flags = YB_PANEL_SELECT_HIGH | YB_PANEL_NO_DC,     \
+    .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180, .x_step = (wide), .y_step = 1,                     \
+    .row_bytes = HEAD_BYTES + TAIL_BYTES, .tick_ms = 500
+
+/* Clocks: Datasheet, "Timing characteristics of input signals". */
+
 const yb_panel_t yb_panel_ls013b7dh03 = {
     .name = "ls013b7dh03",
     .title = "Sharp LS013B7DH03 memory LCD",
-    .driver = &driver,
-    .screen = {.width = 128, .height = 128, .format = YB_MONO},
-    /* Datasheet, "Timing characteristics of input signals": clock 1 MHz, at most 1.1 MHz. */
-    .spi_hz = 1100000,
-    .ram_width = 128,
-    .ram_height = 128,
-    .flags = YB_PANEL_SELECT_HIGH | YB_PANEL_NO_DC,
-    .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180,
-    .x_step = 128,
-    .y_step = 1,
-    .row_bytes = HEAD_BYTES + TAIL_BYTES,
-    .tick_ms = 500,
+    MEMORY_LCD(128, 128),
+    .spi_hz = 1100000, /* 1 MHz, at most 1.1 */
 };
 
 const yb_panel_t yb_panel_ls013b7dh05 = {
     .name = "ls013b7dh05",
     .title = "Sharp LS013B7DH05 memory LCD",
-    .driver = &driver,
-    .screen = {.width = 144, .height = 168, .format = YB_MONO},
-    /* Same section: 1 MHz, at most 1.1 MHz. */
-    .spi_hz = 1100000,
-    .ram_width = 144,
-    .ram_height = 168,
-    .flags = YB_PANEL_SELECT_HIGH | YB_PANEL_NO_DC,
-    .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180,
-    .x_step = 144,
-    .y_step = 1,
-    .row_bytes = HEAD_BYTES + TAIL_BYTES,
-    .tick_ms = 500,
+    MEMORY_LCD(144, 168),
+    .spi_hz = 1100000, /* the same */
 };
 
 const yb_panel_t yb_panel_ls027b7dh01 = {
     .name = "ls027b7dh01",
     .title = "Sharp LS027B7DH01 memory LCD",
-    .driver = &driver,
-    .screen = {.width = MOST_WIDTH, .height = 240, .format = YB_MONO},
-    /* Same section: 1 MHz, at most 2 MHz. */
-    .spi_hz = 2000000,
-    .ram_width = MOST_WIDTH,
-    .ram_height = 240,
-    .flags = YB_PANEL_SELECT_HIGH | YB_PANEL_NO_DC,
-    .turns = 1 << YB_TURN_0 | 1 << YB_TURN_180,
-    .x_step = MOST_WIDTH,
-    .y_step = 1,
-    .row_bytes = HEAD_BYTES + TAIL_BYTES,
-    .tick_ms = 500,
+    MEMORY_LCD(MOST_WIDTH, 240),
+    .spi_hz = 2000000, /* 1 MHz, at most 2 */
 };

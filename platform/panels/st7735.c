@@ -52,7 +52,6 @@ static const uint8_t setup[] = {
 const yb_panel_t yb_panel_st7735 = {
     .name = "st7735",
     .title = "Sitronix ST7735, 128 x 160 TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 128, .height = 160, .format = YB_RGB565},
     /* Datasheet, "Serial interface characteristics (4-line serial)": a write cycle takes 66 ns. */
     .spi_hz = 15150000,
@@ -61,18 +60,12 @@ const yb_panel_t yb_panel_st7735 = {
     .ram_x = 2,
     .ram_y = 1,
     .flags = FLAGS,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };
 
 const yb_panel_t yb_panel_st7735_80x160 = {
     .name = "st7735-80x160",
     .title = "Sitronix ST7735S, 80 x 160 IPS TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 80, .height = 160, .format = YB_RGB565},
     .spi_hz = 15150000,
     .ram_width = 132,
@@ -80,18 +73,12 @@ const yb_panel_t yb_panel_st7735_80x160 = {
     .ram_x = 26,
     .ram_y = 1,
     .flags = FLAGS | YB_PANEL_INVERTED,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };
 
 const yb_panel_t yb_panel_st7735_128x128 = {
     .name = "st7735-128x128",
     .title = "Sitronix ST7735, 128 x 128 TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 128, .height = 128, .format = YB_RGB565},
     .spi_hz = 15150000,
     .ram_width = 132,
@@ -99,10 +86,5 @@ const yb_panel_t yb_panel_st7735_128x128 = {
     .ram_x = 2,
     .ram_y = 3,
     .flags = FLAGS,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };

@@ -47,42 +47,29 @@ static const uint8_t setup[] = {
 const yb_panel_t yb_panel_st7789 = {
     .name = "st7789",
     .title = "Sitronix ST7789, 240 x 240 IPS TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 240, .height = 240, .format = YB_RGB565},
     /* Datasheet, "Serial Interface Characteristics (4-line serial)": a write cycle takes 16 ns. */
     .spi_hz = 62500000,
     .ram_width = 240,
     .ram_height = 320,
     .flags = YB_PANEL_INVERTED,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };
 
 const yb_panel_t yb_panel_st7789_240x320 = {
     .name = "st7789-240x320",
     .title = "Sitronix ST7789, 240 x 320 IPS TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 240, .height = 320, .format = YB_RGB565},
     .spi_hz = 62500000,
     .ram_width = 240,
     .ram_height = 320,
     .flags = YB_PANEL_INVERTED,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };
 
 const yb_panel_t yb_panel_st7789_135x240 = {
     .name = "st7789-135x240",
     .title = "Sitronix ST7789, 135 x 240 IPS TFT",
-    .driver = &yb_panel_mipi,
     .screen = {.width = 135, .height = 240, .format = YB_RGB565},
     .spi_hz = 62500000,
     .ram_width = 240,
@@ -90,10 +77,5 @@ const yb_panel_t yb_panel_st7789_135x240 = {
     .ram_x = 52,
     .ram_y = 40,
     .flags = YB_PANEL_INVERTED,
-    .turns = YB_MIPI_TURNS,
-    .x_step = 1,
-    .y_step = 1,
-    .window_bytes = YB_MIPI_WINDOW_BYTES,
-    .setup = setup,
-    .setup_bytes = sizeof setup,
+    YB_MIPI_PANEL(setup),
 };
