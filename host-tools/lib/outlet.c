@@ -219,20 +219,15 @@ bool yb_outlet_start(yb_outlet_t *outlet)
     return good;
 }
 
-bool yb_outlet_sleep(yb_outlet_t *outlet, bool asleep)
-{
-    pthread_mutex_lock(&outlet->mutex);
-    const bool good = yb_display_sleep(&outlet->display, asleep);
-    outlet->ticks = outlet->ticks && good; /* asleep or not */
-    pthread_mutex_unlock(&outlet->mutex);
-    return good;
-}
-
 bool yb_outlet_blank(yb_outlet_t *outlet)
 {
     /* A start clears. */
-    return outlet->display.panel->driver->sleep != NULL ? yb_outlet_sleep(outlet, true)
-                                                        : yb_outlet_start(outlet);
+    if (outlet->display.panel->driver->sleep == NULL)
+        return yb_outlet_start(outlet);
+    pthread_mutex_lock(&outlet->mutex);
+    const bool good = yb_display_sleep(&outlet->display, true);
+    pthread_mutex_unlock(&outlet->mutex);
+    return good;
 }
 
 bool yb_outlet_well(yb_outlet_t *outlet)

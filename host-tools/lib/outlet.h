@@ -42,13 +42,12 @@ yb_outlet_t *yb_outlet_open(const yb_panel_t *panel, yb_turn_t turn, const yb_pa
 /* Starts the display: black and on. The next frame is sent whole. */
 bool yb_outlet_start(yb_outlet_t *outlet);
 
-/* Switches the display off or on again; its brightness, 0 to 255; light for dark. All between
- * frames, while it is started. */
-bool yb_outlet_sleep(yb_outlet_t *outlet, bool asleep);
+/* Brightness, 0 to 255; light for dark. Between frames, while it is started. */
 bool yb_outlet_set_brightness(yb_outlet_t *outlet, uint8_t level);
 bool yb_outlet_invert(yb_outlet_t *outlet, bool inverted);
 
-/* Nothing is seen any more: the display is off or, where it cannot be switched off, cleared. */
+/* Nothing is seen any more: the display is off or, where it cannot be switched off, cleared. Start
+ * it before the next frame. */
 bool yb_outlet_blank(yb_outlet_t *outlet);
 
 /* False: the bus has failed, also while no frames were sent. */

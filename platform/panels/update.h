@@ -27,7 +27,8 @@ typedef struct {
 
 /* Writes `rows` full rows from row `y` down, one after the other in `pixels`. False when the bus
  * failed (what the display shows is then not known) or the rows do not fit. Cost: one comparison of
- * each byte, and 100 bytes of stack. */
+ * each byte; 340 bytes of stack beside the driver's and 1.2 KB of code on a Cortex-M0 (-Os
+ * -fstack-usage). */
 bool yb_update_rows(yb_update_t *update, uint16_t y, uint16_t rows, const uint8_t *pixels);
 
 /* The same, and nothing is left out. */
