@@ -28,6 +28,12 @@ void colour_begin(yb_frame_t *frame);
  */
 uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near);
 
+/* Is a shade itself the pixel value, but for water? Where there are no colours, and no haze. */
+static inline bool colour_is_shade(const yb_frame_t *frame)
+{
+    return frame->screen.format != YB_RGB565 && frame->haze_near == 0;
+}
+
 /* The sky behind a row of the screen. */
 uint16_t colour_sky(const yb_frame_t *frame, int32_t row);
 

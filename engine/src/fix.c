@@ -31,6 +31,17 @@ static const uint16_t reciprocal_table[65] YB_ROM = {
     20361, 20165, 19973, 19784, 19600, 19418, 19240, 19065, 18893, 18725, 18559, 18396, 18236,
     18079, 17924, 17772, 17623, 17476, 17332, 17190, 17050, 16913, 16777, 16644, 16513, 16384};
 
+#define INVERSE(a) ((uint32_t)1 << 21) / (a)
+#define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
+#define INVERSES_16(a) \
+    INVERSES_4(a), INVERSES_4((a) + 4), INVERSES_4((a) + 8), INVERSES_4((a) + 12)
+#define INVERSES_64(a) \
+    INVERSES_16(a), INVERSES_16((a) + 16), INVERSES_16((a) + 32), INVERSES_16((a) + 48)
+const uint32_t fix_inverse_table[256] YB_ROM = {
+    0, INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
+    INVERSES_16(16), INVERSES_16(32), INVERSES_16(48),
+    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)};
+
 int32_t fix_log2_q11(uint64_t a)
 {
     /* Bring a to 1.5 .. fraction of 16 bits: the top 5 of them look up, the other 11 interpolate.

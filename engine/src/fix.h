@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include <yamabiko/rom.h>
+
 /* `>>` of a negative number rounds down on every compiler we know; C11 leaves it to them. */
 _Static_assert((-3 >> 1) == -2, "arithmetic right shift");
 
@@ -81,6 +83,13 @@ uint32_t fix_exp2_q11(int32_t e_q11);
 
 /* 2^29 / a for 2^14 <= a < 2^15, within 3: above 2^14, at most 2^15. */
 int32_t fix_reciprocal(int32_t a);
+
+/* 2^21 / a, rounded down, for 0 < a < 256. */
+extern const uint32_t fix_inverse_table[256] YB_ROM;
+static inline uint32_t fix_inverse(int32_t a)
+{
+    return yb_rom_u32(&fix_inverse_table[a]);
+}
 
 /* Whole square root, rounded down. */
 uint32_t fix_sqrt(uint64_t a);

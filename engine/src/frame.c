@@ -104,11 +104,9 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
 
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
 {
-    raster_sides_t sides;
     raster_t raster = {
         .screen = &frame->screen,
         .band = band,
-        .sides = &sides,
         .first_row = fix_min(band->y, frame->screen.height),
         .end_row = fix_min(band->y + band->rows, frame->screen.height),
     };

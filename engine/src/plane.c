@@ -101,11 +101,14 @@ typedef struct {
 } cutter_t;
 
 /* False: the lines would lie so close together that nothing else would be left. */
-static bool cutter_start(cutter_t *cutter, const raster_cut_t *cut, const yb_spot_t *const p[3],
+static bool cutter_start(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
                          int32_t y)
 {
+    int32_t value[3];
+    for (int i = 0; i < 3; i++)
+        value[i] = cut->value[(shape->first + i) % 3];
     cutter->cut = cut;
-    plane_start(&cutter->plane, p, cut->value, y);
+    plane_start(&cutter->plane, shape->p, value, y);
     cutter->plane.at_q14 -= (uint32_t)cut->zero << 14;
     cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
     cutter->half_interval = cut->interval << 13;
@@ -141,12 +144,30 @@ static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int3
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
+/* A side on its way down: as in raster.c, of any triangle, and on the whole screen. */
+typedef struct {
+    int64_t at, step;
+} long_side_t;
+
+static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t y)
+{
+    const int32_t dx = to->x_q4 - (int32_t)from->x_q4;
+    const int32_t dy = to->y_q4 - (int32_t)from->y_q4;
+    const int64_t slope = dy <= RASTER_HIGH_Q4 && raster_is_small(dx)
+                              ? rows_small_slope(dx, dy)
+                              : (int64_t)((raster_area_t)dx * 65536 / dy) * (1 << (ROWS_FRACTION - 16));
+    const int64_t start = (int64_t)(from->x_q4 + 8) * ((int32_t)1 << ROWS_FRACTION) - 1;
+    return (long_side_t){start + slope * (y * 16 + 8 - from->y_q4), slope * 16};
+}
+
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *const *p = shape->p;
     int32_t y = fix_max(shape->top, raster->first_row);
     int32_t end_y = fix_min(shape->bottom, raster->end_row);
+    if (y >= end_y)
+        return;
     int32_t width = raster->screen->width;
     int32_t line = y - raster->first_row;
     uint16_t *depth = raster->band->depth + line * width;
@@ -155,25 +176,30 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
-    cutter_t cutter;
-    cutter.plane.at_q14 = 0;
-    cutter.plane.along_y = 0;
-    bool cuts = cut != NULL && cutter_start(&cutter, cut, p, y);
-    raster_sides_t *sides = raster->sides;
-    for (int32_t i = RASTER_HIGH; y < end_y; y++, i++) {
-        if (i == RASTER_HIGH) {
-            rows_trace(p, y, fix_min(y + RASTER_HIGH, end_y), sides);
-            i = 0;
-        }
-        int32_t x = fix_max(sides->left[i], 0);
-        int32_t end = fix_min(sides->right[i], width);
+    cutter_t cutter = {.cut = NULL};
+    bool cuts = cut != NULL && cutter_start(&cutter, cut, shape, y);
+    const int32_t left_end = raster_pixel(p[1]->y_q4);
+    const int32_t right_end = raster_pixel(p[2]->y_q4);
+    long_side_t left = y < left_end ? long_side(p[0], p[1], y) : long_side(p[1], p[2], y);
+    long_side_t right = y < right_end ? long_side(p[0], p[2], y) : long_side(p[2], p[1], y);
+    for (;;) {
+        int32_t x = fix_max((int32_t)(left.at >> ROWS_PIXEL), 0);
+        int32_t end = fix_min((int32_t)(right.at >> ROWS_PIXEL), width);
         if (cuts)
             draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
         else
             draw_span(raster, depth, row, x, end, &plane, in_row(raster, pixel, y));
+        if (++y == end_y)
+            return;
         plane.at_q14 += (uint32_t)plane.along_y;
         cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
         depth += width;
         row += raster->band->pitch;
+        left.at += left.step;
+        right.at += right.step;
+        if (y == left_end)
+            left = long_side(p[1], p[2], y);
+        if (y == right_end)
+            right = long_side(p[2], p[1], y);
     }
 }

@@ -42,107 +42,103 @@ void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
     }
 }
 
-/* --- Edges ------------------------------------------------------------------------------------ */
+/* --- Small triangles -------------------------------------------------------------------------- */
 
-/* Where each edge of a triangle crosses the rows from first up to end: the first pixel whose centre
- * is on the edge or right of it. It goes with the edge from row to row, in whole pixels: no
- * division, and exact. Both triangles at an edge come to the same pixel, which is where the one
- * ends and the other begins. Counter-clockwise, an edge down is on the left.
+/* A side of a small triangle on its way down: where it crosses a row, right of some pixel, rounded
+ * so that its whole pixels are the first whose centre is on the side or right of it.
  */
-void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, raster_sides_t *sides)
+typedef struct {
+    uint32_t at, step; /* it may wrap after the last row */
+} side_t;
+
+/* The side down from one corner to another at row y. It lies within 2 RASTER_WIDE_Q4 of the base:
+ * below 2^31 with its 21 fractional bits.
+ */
+static inline side_t side_of(const yb_spot_t *from, const yb_spot_t *to, int32_t base_q4, int32_t y)
 {
-    const yb_spot_t *from = p[2];
-    for (int i = 0; i < 3; i++) {
-        const yb_spot_t *a = from;
-        const yb_spot_t *b = p[i];
-        from = b;
-        /* cppcheck-suppress ctuuninitvar ; it is what is filled in here */
-        int16_t *to = sides->left;
-        if (a->y_q4 > b->y_q4) {
-            b = a;
-            a = from;
-            to = sides->right;
-        }
-        int32_t y = fix_max(raster_pixel(a->y_q4), first);
-        int32_t rows = fix_min(raster_pixel(b->y_q4), end) - y;
-        if (rows <= 0)
-            continue;
-        to += y - first;
-        int32_t dx = b->x_q4 - (int32_t)a->x_q4;
-        int32_t dy = b->y_q4 - (int32_t)a->y_q4;
-        int32_t x = raster_pixel(a->x_q4);
-        /* Of the pixel x: a step right adds `across`, a step down takes off `down`. */
-        raster_area_t side =
-            (raster_area_t)(x * 16 + 8 - a->x_q4) * dy - (raster_area_t)(y * 16 + 8 - a->y_q4) * dx;
-        const raster_area_t across = (raster_area_t)dy * 16;
-        const raster_area_t down = (raster_area_t)dx * 16;
-        for (;;) {
-            if (side < 0) { /* towards the right alone, or towards the left */
-                do
-                    x++;
-                while ((side += across) < 0);
-            } else if (side >= across) {
-                do
-                    x--;
-                while ((side -= across) >= across);
-            }
-            *to++ = (int16_t)x;
-            if (--rows == 0)
-                break;
-            side -= down;
-        }
-    }
+    const int32_t slope = rows_small_slope(to->x_q4 - (int32_t)from->x_q4,
+                                           to->y_q4 - (int32_t)from->y_q4);
+    const int32_t at = (from->x_q4 - base_q4 + 8) * ((int32_t)1 << ROWS_FRACTION) - 1 +
+                       slope * (y * 16 + 8 - from->y_q4);
+    return (side_t){(uint32_t)at, (uint32_t)slope << 4};
 }
 
-/* --- Triangles -------------------------------------------------------------------------------- */
-
-bool raster_covers(const raster_t *raster, const raster_shape_t *shape)
+static inline int32_t pixel_of(const side_t *side)
 {
-    const int32_t top = fix_max(shape->top, raster->first_row);
-    const int32_t end = fix_min(shape->bottom, raster->end_row);
-    const raster_sides_t *sides = raster->sides;
-    rows_trace(shape->p, top, end, raster->sides);
-    for (int32_t i = 0; i < end - top; i++) {
-        if (sides->left[i] < sides->right[i])
-            return true;
+    return (int32_t)side->at >> ROWS_PIXEL;
+}
+
+/* The pixels from x up to end of a row. */
+static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, int32_t x, int32_t end,
+                            uint16_t near, uint16_t pixel)
+{
+    if (format == YB_GREY4) {
+        for (; x < end; x++) {
+            if (near > depth[x]) {
+                uint8_t *at = &row[x >> 1];
+                depth[x] = near;
+                *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
+            }
+        }
+    } else if (format == YB_RGB565) {
+        for (; x < end; x++) {
+            if (near > depth[x]) {
+                depth[x] = near;
+                row[2 * x] = (uint8_t)(pixel >> 8);
+                row[2 * x + 1] = (uint8_t)pixel;
+            }
+        }
+    } else {
+        for (; x < end; x++) {
+            if (near > depth[x]) {
+                const uint8_t bit = (uint8_t)(0x80 >> (x & 7));
+                uint8_t *at = &row[x >> 3];
+                depth[x] = near;
+                *at = (uint8_t)((*at & ~bit) | (pixel & bit));
+            }
+        }
     }
-    return false;
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    const size_t width = raster->screen->width;
-    const int32_t top = fix_max(shape->top, raster->first_row);
+    const yb_spot_t *a = shape->p[0];
+    const yb_spot_t *b = shape->p[1];
+    const yb_spot_t *c = shape->p[2];
+    int32_t y = fix_max(shape->top, raster->first_row);
     const int32_t end = fix_min(shape->bottom, raster->end_row);
-    const raster_sides_t *sides = raster->sides;
+    if (y >= end)
+        return;
+    /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
+    const int32_t left_end = raster_pixel(b->y_q4);
+    const int32_t right_end = raster_pixel(c->y_q4);
+    const int32_t base_q4 = a->x_q4 & ~(int32_t)127; /* whole bytes of pixels */
+    side_t left = y < left_end ? side_of(a, b, base_q4, y) : side_of(b, c, base_q4, y);
+    side_t right = y < right_end ? side_of(a, c, base_q4, y) : side_of(c, b, base_q4, y);
+    const yb_format_t format = raster->screen->format;
     const uint16_t near = mean_near(shape->p);
+    const size_t width = raster->screen->width;
     const size_t pitch = raster->band->pitch;
-    const bool grey = raster->screen->format == YB_GREY4;
-    uint16_t *depth = raster->band->depth + (size_t)(top - raster->first_row) * width;
-    uint8_t *row = raster->band->pixels + (size_t)(top - raster->first_row) * pitch;
-    for (int32_t i = 0; i < end - top; i++, depth += width, row += pitch) {
-        int32_t x = sides->left[i];
-        int32_t right = sides->right[i];
-        if (grey) {
-            for (; x < right; x++) {
-                if (near > depth[x]) {
-                    uint8_t *at = &row[x >> 1];
-                    depth[x] = near;
-                    *at =
-                        (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
-                }
-            }
-        } else {
-            for (; x < right; x++) {
-                if (near > depth[x]) {
-                    depth[x] = near;
-                    row[2 * x] = (uint8_t)(pixel >> 8);
-                    row[2 * x + 1] = (uint8_t)pixel;
-                }
-            }
-        }
+    uint16_t *depth = raster->band->depth + (size_t)(y - raster->first_row) * width + (base_q4 >> 4);
+    uint8_t *row = raster->band->pixels + (size_t)(y - raster->first_row) * pitch +
+                   (format == YB_GREY4 ? base_q4 >> 5 : format == YB_RGB565 ? base_q4 >> 3 : base_q4 >> 7);
+    for (;;) {
+        fill_row(format, depth, row, pixel_of(&left), pixel_of(&right), near,
+                 in_row(raster, pixel, y));
+        if (++y == end)
+            return;
+        depth += width;
+        row += pitch;
+        left.at += left.step;
+        right.at += right.step;
+        if (y == left_end)
+            left = side_of(b, c, base_q4, y);
+        if (y == right_end)
+            right = side_of(c, b, base_q4, y);
     }
 }
+
+/* --- Triangles -------------------------------------------------------------------------------- */
 
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)
@@ -157,8 +153,8 @@ raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_s
         (a->x_q4 <= 8 && b->x_q4 <= 8 && c->x_q4 <= 8) ||
         (a->x_q4 > right && b->x_q4 > right && c->x_q4 > right))
         return RASTER_NOTHING;
-    raster_shape_t shape = {.p = {a, b, c}};
-    raster_look_t look = raster_front(&shape);
+    raster_shape_t shape;
+    raster_look_t look = raster_front(a, b, c, &shape);
     if (raster->band != NULL && (look == RASTER_FRONT || look == RASTER_SMALL))
         raster_fill(raster, &shape, look, pixel);
     return look;

@@ -26,16 +26,9 @@ typedef struct {
 } raster_cut_t;
 
 enum {
-    RASTER_WIDE = 20, /* pixels of a small triangle: in a row, … */
-    RASTER_HIGH = 16  /* … and rows */
+    RASTER_WIDE_Q4 = 320, /* from side to side of a small triangle, at most, … */
+    RASTER_HIGH_Q4 = 255  /* … and from top to bottom */
 };
-
-/* Of each row of a triangle, the first pixel on its left side or right of it, and that of its right
- * side: the first that is not drawn any more.
- */
-typedef struct {
-    int16_t left[RASTER_HIGH], right[RASTER_HIGH];
-} raster_sides_t;
 
 typedef struct {
     const yb_screen_t *screen;
@@ -43,7 +36,6 @@ typedef struct {
     int32_t first_row, end_row; /* of the screen */
     yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
     void *context;
-    raster_sides_t *sides; /* of the triangle in hand; not needed if there is no band */
 } raster_t;
 
 /* Clears the band's depths. */
@@ -59,91 +51,87 @@ static inline int32_t raster_pixel(int32_t q4)
 }
 
 typedef enum {
-    RASTER_NOTHING, /* seen from behind, or the box round it meets no pixel's centre in the band */
+    RASTER_NOTHING, /* seen from behind, or between two rows of pixels' centres */
     RASTER_FRONT,
     RASTER_SMALL, /* and small: drawn at one depth */
     RASTER_BEYOND /* a corner has no spot: it must be clipped */
 } raster_look_t;
 
-/* A triangle on the screen, and the box of the pixels whose centres it may cover: from the first
- * up to the one after the last.
+/* A triangle on the screen, counter-clockwise from its topmost corner, and the rows of pixels whose
+ * centres it may cover: from the first up to the one after the last.
  */
 typedef struct {
     const yb_spot_t *p[3];
-    int32_t left, right, top, bottom;
+    int first; /* which of the corners that were given p[0] is */
+    int32_t top, bottom;
 } raster_shape_t;
 
-static inline int32_t raster_least(int32_t a, int32_t b, int32_t c)
+static inline bool raster_is_small(int32_t dx)
 {
-    a = a < b ? a : b;
-    return a < c ? a : c;
+    return (uint32_t)(dx + RASTER_WIDE_Q4) <= 2 * RASTER_WIDE_Q4;
 }
 
-static inline int32_t raster_most(int32_t a, int32_t b, int32_t c)
+/* Looks at a triangle, counter-clockwise from the front, whose corners have spots. */
+static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                                         raster_shape_t *shape)
 {
-    a = a > b ? a : b;
-    return a > c ? a : c;
-}
-
-/* Looks at a triangle, counter-clockwise from the front, whose corners have spots and are not all
- * beyond one side of the band, and finds its box.
- */
-static inline raster_look_t raster_front(raster_shape_t *shape)
-{
-    const yb_spot_t *a = shape->p[0];
-    const yb_spot_t *b = shape->p[1];
-    const yb_spot_t *c = shape->p[2];
-    const int32_t ay = a->y_q4;
-    const int32_t by = b->y_q4;
-    const int32_t cy = c->y_q4;
-    const int32_t top = raster_pixel(raster_least(ay, by, cy));
-    const int32_t bottom = raster_pixel(raster_most(ay, by, cy));
-    if (top >= bottom)
+    shape->first = 0;
+    if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
+        const yb_spot_t *last = a;
+        a = b;
+        b = c;
+        c = last;
+        shape->first = 1;
+    } else if (c->y_q4 < a->y_q4) {
+        const yb_spot_t *last = b;
+        b = a;
+        a = c;
+        c = last;
+        shape->first = 2;
+    }
+    const int32_t high = a->y_q4;
+    const int32_t low = b->y_q4 > c->y_q4 ? b->y_q4 : c->y_q4;
+    shape->top = raster_pixel(high);
+    shape->bottom = raster_pixel(low);
+    if (shape->top == shape->bottom)
         return RASTER_NOTHING;
-    const int32_t ax = a->x_q4;
-    const int32_t bx = b->x_q4;
-    const int32_t cx = c->x_q4;
+    const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
+    const int32_t cx = (int32_t)c->x_q4 - a->x_q4;
     /* y points down: a front, counter-clockwise with y up, is negative here. */
-    if ((raster_area_t)(bx - ax) * (cy - ay) - (raster_area_t)(by - ay) * (cx - ax) >= 0)
+    if ((raster_area_t)bx * (c->y_q4 - high) - (raster_area_t)(b->y_q4 - high) * cx >= 0)
         return RASTER_NOTHING;
-    const int32_t left = raster_pixel(raster_least(ax, bx, cx));
-    const int32_t right = raster_pixel(raster_most(ax, bx, cx));
-    if (left >= right)
-        return RASTER_NOTHING;
-    shape->left = left;
-    shape->right = right;
-    shape->top = top;
-    shape->bottom = bottom;
-    return right - left > RASTER_WIDE || bottom - top > RASTER_HIGH ? RASTER_FRONT : RASTER_SMALL;
+    shape->p[0] = a;
+    shape->p[1] = b;
+    shape->p[2] = c;
+    return low - high <= RASTER_HIGH_Q4 && raster_is_small(bx) && raster_is_small(cx) &&
+                   raster_is_small(cx - bx)
+               ? RASTER_SMALL
+               : RASTER_FRONT;
 }
 
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
  * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
  * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
- * is for small ones alone that lie between the screen's left and right side, at one depth, and not
- * for YB_MONO, after raster_covers has said that it covers a pixel in the band, as one in six does
- * not; with a cut (or NULL) the second draws its lines.
+ * is for small ones alone that lie between the screen's left and right side, at one depth; with a
+ * cut (or NULL) the second draws its lines.
  */
-bool raster_covers(const raster_t *raster, const raster_shape_t *shape);
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut);
 
-/* Is a triangle one for raster_level? */
-static inline bool raster_is_level(const raster_t *raster, const raster_shape_t *shape,
-                                   raster_look_t look)
+static inline bool raster_on_screen(const raster_t *raster, const yb_spot_t *p)
 {
-    return look == RASTER_SMALL && shape->left >= 0 && shape->right <= raster->screen->width &&
-           raster->screen->format != YB_MONO;
+    return (uint32_t)p->x_q4 <= raster->screen->width * (uint32_t)16;
 }
 
 static inline void raster_fill(const raster_t *raster, const raster_shape_t *shape,
                                raster_look_t look, uint16_t pixel)
 {
-    if (!raster_is_level(raster, shape, look))
-        raster_plane(raster, shape, look, pixel, NULL);
-    else if (raster_covers(raster, shape))
+    if (look == RASTER_SMALL && raster_on_screen(raster, shape->p[0]) &&
+        raster_on_screen(raster, shape->p[1]) && raster_on_screen(raster, shape->p[2]))
         raster_level(raster, shape, pixel);
+    else
+        raster_plane(raster, shape, look, pixel, NULL);
 }
 
 /* Both: looks, and draws what is in front, if there is a band. */

@@ -361,8 +361,8 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         draw_clipped(frame, walk->view, raster, p);
         return;
     }
-    raster_shape_t shape = {.p = {&a->spot, &b->spot, &c->spot}};
-    raster_look_t look = raster_front(&shape);
+    raster_shape_t shape;
+    raster_look_t look = raster_front(&a->spot, &b->spot, &c->spot, &shape);
     if (look == RASTER_NOTHING)
         return;
     frame->stats.drawn++;
@@ -370,16 +370,10 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         hand_out(raster, p);
         return;
     }
-    bool level = raster_is_level(raster, &shape, look);
-    if (level && !raster_covers(raster, &shape))
-        return;
     const shade_t shade = shade_ground(frame, p);
     if (frame->lines && draw_lines(frame, raster, p, &shape, look, shade))
         return;
-    if (level)
-        raster_level(raster, &shape, shade.pixel);
-    else
-        raster_plane(raster, &shape, look, shade.pixel, NULL);
+    raster_fill(raster, &shape, look, shade.pixel);
 }
 
 static inline void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,

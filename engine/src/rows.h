@@ -1,4 +1,4 @@
-/* What the two ways to fill a triangle share: its rows, and the pixels in them. raster.c fills
+/* What the two ways to fill a triangle share: its sides, and the pixels between them. raster.c fills
  * small ones at one depth, fast; plane.c all others.
  */
 #ifndef YB_ROWS_H
@@ -44,10 +44,20 @@ static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, ui
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
-/* A triangle's sides in the rows from first up to end, at most RASTER_HIGH of them. Both triangles
- * at an edge come to the same pixels: where the one ends and the other begins.
+/* A row's whole pixels lie this far up in where a side crosses it. */
+enum {
+    ROWS_FRACTION = 21,         /* of a sixteenth of a pixel */
+    ROWS_PIXEL = ROWS_FRACTION + 4
+};
+
+/* A side goes down from one corner to another: how far right in one sixteenth of a row. Of sides as
+ * those of small triangles without a division. Both triangles at it come to the same pixels: where
+ * the one ends and the other begins.
  */
-void rows_trace(const yb_spot_t *const p[3], int32_t first, int32_t end, raster_sides_t *sides);
+static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
+{
+    return dx * (int32_t)fix_inverse(dy);
+}
 
 /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
 static inline uint16_t mean_near(const yb_spot_t *const p[3])

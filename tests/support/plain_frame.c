@@ -96,8 +96,8 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
         only_look.band = NULL;
         if (raster_draw(&only_look, spot[0], spot[1], spot[2], pixel) == RASTER_NOTHING)
             return;
-        raster_shape_t shape = {.p = {spot[0], spot[1], spot[2]}};
-        raster_look_t look = raster_front(&shape);
+        raster_shape_t shape;
+        raster_look_t look = raster_front(spot[0], spot[1], spot[2], &shape);
         if (drawing->frame->lines && shade_cut(drawing->frame, p, shade, &cut))
             raster_plane(&drawing->raster, &shape, look, pixel, &cut);
         else
@@ -107,9 +107,7 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
-    raster_sides_t sides;
-    drawing_t drawing = {frame,
-                         {&frame->screen, band, 0, frame->screen.height, NULL, NULL, &sides}};
+    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL}};
     raster_clear(&drawing.raster);
     for (int32_t y = 0; y < frame->screen.height; y++)
         raster_row(&drawing.raster, y, colour_sky(frame, y));

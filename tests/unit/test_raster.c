@@ -22,14 +22,13 @@ typedef struct {
     yb_screen_t screen;
     yb_band_t band;
     raster_t raster;
-    raster_sides_t sides;
 } page_t;
 
 static void open_page(page_t *page, yb_format_t format, int y, int rows)
 {
     page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
     page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, depth, pixels + GUARD, PITCH};
-    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL, &page->sides};
+    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
     memset(pixels, 0xa5, sizeof pixels);
     raster_clear(&page->raster);
     for (int i = 0; i < rows; i++)
@@ -325,8 +324,8 @@ static void depth_is_a_plane(void **state)
         raster_look_t look;
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        raster_shape_t shape = {.p = {&p[0], &p[1], &p[2]}};
-        look = raster_front(&shape);
+        raster_shape_t shape;
+        look = raster_front(&p[0], &p[1], &p[2], &shape);
         double error = depth_error(p);
         if (look == RASTER_SMALL) {
             check_level(p);
@@ -356,8 +355,7 @@ static void huge_triangles_fit(void **state)
     for (int round = 0; round < 2000; round++) {
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
-        raster_sides_t sides;
-        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL, &sides};
+            raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
         raster_clear(&raster);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
@@ -416,8 +414,8 @@ static void lines_lie_where_they_should(void **state)
             cut.zero = rng_range(&rng, 20000, 45000);
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
-        raster_shape_t shape = {.p = {&p[0], &p[1], &p[2]}};
-        const raster_look_t look = raster_front(&shape);
+        raster_shape_t shape;
+        const raster_look_t look = raster_front(&p[0], &p[1], &p[2], &shape);
         if (look == RASTER_NOTHING)
             continue;
         raster_plane(&page.raster, &shape, look, 5, &cut);

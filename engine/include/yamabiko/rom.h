@@ -33,6 +33,12 @@ static inline uint16_t yb_rom_u16(const uint16_t *at)
     return (uint16_t)(yb_rom_u8(byte) | (uint16_t)yb_rom_u8(byte + 1) << 8);
 }
 
+static inline uint32_t yb_rom_u32(const uint32_t *at)
+{
+    const uint16_t *half = (const uint16_t *)at;
+    return yb_rom_u16(half) | (uint32_t)yb_rom_u16(half + 1) << 16;
+}
+
 #else
 
 #define YB_ROM
@@ -43,6 +49,11 @@ static inline uint8_t yb_rom_u8(const uint8_t *at)
 }
 
 static inline uint16_t yb_rom_u16(const uint16_t *at)
+{
+    return *at;
+}
+
+static inline uint32_t yb_rom_u32(const uint32_t *at)
 {
     return *at;
 }
