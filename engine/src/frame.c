@@ -40,14 +40,7 @@ static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 static int32_t farthest_stray(yb_frame_t *frame)
 {
     const yb_map_t *map = frame->map;
-    int32_t farthest = 0;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        const yb_index_t *corner = map->triangle[t];
-        relief_bound_t bound;
-        relief_bound(map, &map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
-                     &bound);
-        farthest = fix_max(farthest, relief_reach(map, &bound, 0));
-    }
+    int32_t farthest = map->stray_q8;
     /* The block stands on a quarter of its relief. */
     int32_t relief = map->high_q8 - map->low_q8;
     frame->base_q8 = map->low_q8 - (relief >> 2) - 256;

@@ -39,8 +39,8 @@ void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t 
     middle->gy_q11 = (int16_t)((a->gy_q11 + b->gy_q11) >> 1);
 }
 
-void relief_bound(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
-                  const yb_vertex_t *c, relief_bound_t *bound)
+void relief_bound(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c,
+                  relief_bound_t *bound)
 {
     const yb_vertex_t *corner[4] = {a, b, c, a};
     int32_t rise = 0;
@@ -50,8 +50,7 @@ void relief_bound(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *
         const yb_vertex_t *q = corner[i + 1];
         int class = relief_class(fix_minus(q->x_q8, p->x_q8), fix_minus(q->y_q8, p->y_q8));
         bound->longest = (int)fix_max(bound->longest, class);
-        if (map->smooth)
-            rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
+        rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
     }
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */
@@ -230,6 +229,19 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
     }
 }
 
+static int32_t farthest_stray(const yb_map_t *map)
+{
+    int32_t farthest = 0;
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+        const yb_index_t *corner = map->triangle[t];
+        relief_bound_t bound;
+        relief_bound(&map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
+                     &bound);
+        farthest = fix_max(farthest, relief_reach(map, &bound, 0));
+    }
+    return farthest;
+}
+
 void relief_prepare(yb_map_t *map, const yb_load_t *load)
 {
     map->low_q8 = map->high_q8 = map->vertex[0].z_q8;
@@ -241,4 +253,5 @@ void relief_prepare(yb_map_t *map, const yb_load_t *load)
     }
     int32_t hurst_q8 = map->hurst_q8m1 + 1;
     fill_tables(map, log2_amplitude(map, load, hurst_q8), hurst_q8);
+    map->stray_q8 = farthest_stray(map);
 }

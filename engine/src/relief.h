@@ -121,8 +121,8 @@ typedef struct {
     int longest;
 } relief_bound_t;
 
-void relief_bound(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
-                  const yb_vertex_t *c, relief_bound_t *bound);
+void relief_bound(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c,
+                  relief_bound_t *bound);
 
 /* How far refinement can move any point of the triangle from its plane, at most, if no edge of a
  * class below `shortest` is split.

@@ -414,7 +414,7 @@ static void descend(search_t *search, int depth, int least)
         for (int k = 0; k <= depth; k++) {
             const yb_vertex_t *q = search->corner[k];
             relief_bound_t bound;
-            relief_bound(&map, &q[0], &q[1], &q[2], &bound);
+            relief_bound(&q[0], &q[1], &q[2], &bound);
             double part = off_plane(q, &point[3 + i]) / relief_reach(&map, &bound, shortest);
             search->worst = fmax(search->worst, part);
         }

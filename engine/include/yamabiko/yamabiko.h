@@ -150,6 +150,7 @@ typedef struct {
     uint16_t north_q8; /* y of the frame's northern side */
     int32_t low_q8;    /* height of the lowest vertex */
     int32_t high_q8;   /* height of the highest vertex */
+    int32_t stray_q8;  /* farthest that refinement moves any point */
     uint16_t cell;     /* metres per step, as coded: see yb_unit_ratio */
     uint16_t unit;     /* metres per unit of coded height, as coded */
     int16_t base_m;    /* metres above the datum of z = 0 */
