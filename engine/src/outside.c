@@ -169,15 +169,21 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
     return stray + (relief_reach(map, &bound, class + 4 - 4 * count) >> 1) + 1;
 }
 
-int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
+/* What of a triangle strays so far in height, when some of it may be in the water: what is above may
+ * sink to it where the ground between dips under it.
+ */
+static int32_t stray_in_water(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t stray)
 {
-    const yb_point_t *const *p = part->point;
-    int32_t stray = refine_edges(part) >= REFINE_ONCE ? limited_stray(frame, part) : 0;
-    /* What is above the water may sink to it where the ground between dips under it. */
     int32_t water = frame->view.water_q8;
     if (p[0]->z_q8 < water || p[1]->z_q8 < water || p[2]->z_q8 < water)
         stray = fix_max(stray, fix_max(p[0]->top_q8, fix_max(p[1]->top_q8, p[2]->top_q8)) - water);
     return stray;
+}
+
+int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
+{
+    int32_t stray = refine_edges(part) >= REFINE_ONCE ? limited_stray(frame, part) : 0;
+    return stray_in_water(frame, part->point, stray);
 }
 
 /* find_spare, of a triangle all of whose corners have spots. If none of it changes its depth by
@@ -232,23 +238,45 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
+/* How far refinement can move a point of a base triangle, however often its edges are halved: as
+ * limited_stray.
+ */
+static int32_t whole_stray(const yb_map_t *map, const yb_point_t *const p[3])
+{
+    uint32_t square = 0;
+    for (int i = 0; i < 3; i++) {
+        const yb_point_t *q = p[i == 2 ? 0 : i + 1];
+        uint32_t other = relief_half_square(relief_dx(p[i]->place, q->place),
+                                            relief_dy(p[i]->place, q->place));
+        square = other > square ? other : square;
+    }
+    const relief_bound_t bound = {0, relief_square_class(square)};
+    return refine_bulge(map, p) + 17 + (relief_reach(map, &bound, 0) >> 1);
+}
+
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
-    yb_part_t part;
-    refine_root(frame, whole, triangle, &part);
-    int32_t stray = refine_stray(frame, &part);
+    yb_point_t root[3];
+    const yb_point_t *const p[3] = {&root[0], &root[1], &root[2]};
+    for (int i = 0; i < 3; i++)
+        camera_root(frame, frame->map->triangle[triangle][i], &root[i]);
+    int32_t stray = stray_in_water(frame, p, whole_stray(frame->map, p));
     int32_t last = frame->screen.height - 1;
     int32_t first = 0;
     box_t box;
     spare_t spare;
-    if (refine_misses(frame, whole, part.point, 3, stray)) {
+    if (find_box(p, 3, &box) && find_spare(frame, stray, box.near, &spare)) {
+        widen_box(&spare, &box);
+        if (box_misses(whole, &box)) {
+            first = last;
+            last = 0;
+        } else {
+            first = fix_clamp(box.top >> 4, 0, last);
+            last = fix_clamp(box.bottom >> 4, 0, last);
+        }
+    } else if (misses_planes(frame, whole, p, 3, stray)) {
         first = last;
         last = 0;
-    } else if (find_box(part.point, 3, &box) &&
-               find_part_spare(frame, &part, stray, box.near, &spare)) {
-        widen_box(&spare, &box);
-        first = fix_clamp(box.top >> 4, 0, last);
-        last = fix_clamp(box.bottom >> 4, 0, last);
     }
     frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
 }

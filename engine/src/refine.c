@@ -173,6 +173,19 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
+/* A surface of the second degree bulges from its plane at most 4/3 of what it does on an edge; a line
+ * from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such lines at most one
+ * is split on.
+ */
+int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3])
+{
+    if (!map->smooth)
+        return 0;
+    int32_t bulge = fix_max(fix_abs(bulge_of(p[0], p[1])),
+                            fix_max(fix_abs(bulge_of(p[1], p[2])), fix_abs(bulge_of(p[2], p[0]))));
+    return 2 * bulge + (bulge >> 1);
+}
+
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part)
 {
@@ -184,16 +197,7 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
     part->edge[0] = refine_edge(frame, &frame->root[0], &frame->root[1]);
     part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
     part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
-    part->bulge = 0;
-    if (!frame->map->smooth || !refine_splits(part))
-        return;
-    int32_t bulge = fix_max(fix_abs(bulge_of(&frame->root[0], &frame->root[1])),
-                            fix_max(fix_abs(bulge_of(&frame->root[1], &frame->root[2])),
-                                    fix_abs(bulge_of(&frame->root[2], &frame->root[0]))));
-    /* A surface of the second degree bulges from its plane at most 4/3 of what it does on an edge;
-     * a line from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such
-     * lines at most one is split on. */
-    part->bulge = 2 * bulge + (bulge >> 1);
+    part->bulge = refine_splits(part) ? refine_bulge(frame->map, part->point) : 0;
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */

@@ -97,6 +97,9 @@ static inline bool refine_part_misses(const yb_frame_t *frame, const refine_view
     return beyond != 0 && refine_far_off(frame, view, part, beyond);
 }
 
+/* How far the smooth surface may be from the plane of a base triangle. */
+int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3]);
+
 /* A base triangle, with its corners in frame->root. */
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part);
