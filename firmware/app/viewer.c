@@ -1,5 +1,7 @@
 #include "viewer.h"
 
+#include <stddef.h>
+
 #define FNV_START 2166136261u
 #define FNV_PRIME 16777619u
 
@@ -75,6 +77,19 @@ static uint32_t hash_bytes(uint32_t hash, const uint8_t *bytes, size_t count)
     return hash;
 }
 
+/* As many rows as there is memory for. */
+static yb_band_t find_band(yb_viewer_t *viewer)
+{
+    uint8_t *begin = (uint8_t *)viewer + offsetof(yb_viewer_t, map) + yb_map_used(&viewer->map);
+    const size_t bytes = (size_t)((uint8_t *)&viewer->work.drawing.frame - begin);
+    const size_t rows = bytes / YB_VIEWER_ROW_BYTES;
+    yb_band_t band = {.rows = (uint16_t)(rows < YB_VIEWER_HEIGHT ? rows : YB_VIEWER_HEIGHT),
+                      .depth = (uint16_t *)(void *)begin,
+                      .pitch = YB_VIEWER_PITCH};
+    band.pixels = (uint8_t *)&band.depth[(size_t)YB_VIEWER_WIDTH * band.rows];
+    return band;
+}
+
 uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_band_fn band,
                         void *context)
 {
@@ -87,19 +102,17 @@ uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_ban
     if ((viewer->looks & YB_VIEWER_LINES) != 0)
         set_lines(&view, &viewer->map);
 
-    yb_viewer_drawing_t *drawing = &viewer->work.drawing;
-    yb_frame_begin(&drawing->frame, &viewer->map, &view, &screen);
-    yb_band_t rows = {.rows = YB_VIEWER_BAND_ROWS,
-                      .depth = drawing->depth,
-                      .pixels = drawing->pixels,
-                      .pitch = YB_VIEWER_PITCH};
+    yb_frame_t *frame = &viewer->work.drawing.frame;
+    yb_frame_begin(frame, &viewer->map, &view, &screen);
     uint32_t hash = FNV_START;
-    for (uint16_t y = 0; y < YB_VIEWER_HEIGHT; y = (uint16_t)(y + YB_VIEWER_BAND_ROWS)) {
-        rows.y = y;
-        yb_frame_band(&drawing->frame, &rows);
-        hash = hash_bytes(hash, drawing->pixels, sizeof drawing->pixels);
+    for (yb_band_t rows = find_band(viewer); rows.y < YB_VIEWER_HEIGHT;
+         rows.y = (uint16_t)(rows.y + rows.rows)) {
+        if (rows.rows > YB_VIEWER_HEIGHT - rows.y)
+            rows.rows = (uint16_t)(YB_VIEWER_HEIGHT - rows.y);
+        yb_frame_band(frame, &rows);
+        hash = hash_bytes(hash, rows.pixels, (size_t)YB_VIEWER_PITCH * rows.rows);
         if (band)
-            band(context, y, drawing->pixels);
+            band(context, rows.y, rows.rows, rows.pixels);
     }
     return hash;
 }

@@ -19,12 +19,15 @@
 #define YB_VIEWER_WIDTH 128
 #define YB_VIEWER_HEIGHT 64
 #define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
-/* Rows drawn at once; a divisor of the height. More rows are faster and cost 320 bytes each. */
-#ifndef YB_VIEWER_BAND_ROWS
-#define YB_VIEWER_BAND_ROWS 8
+/* Memory for the rows that are drawn at once, beside what the map leaves of its own: 320 bytes each.
+ * More rows are faster. A map of 100 bytes gets 11 to 15 of them in all.
+ */
+#define YB_VIEWER_ROW_BYTES (2 * YB_VIEWER_WIDTH + YB_VIEWER_PITCH)
+#ifndef YB_VIEWER_BAND_BYTES
+#define YB_VIEWER_BAND_BYTES (8 * YB_VIEWER_ROW_BYTES)
 #endif
-#if YB_VIEWER_BAND_ROWS < 1 || YB_VIEWER_HEIGHT % YB_VIEWER_BAND_ROWS != 0
-#error "YB_VIEWER_BAND_ROWS: a divisor of 64"
+#if YB_VIEWER_BAND_BYTES < YB_VIEWER_ROW_BYTES || YB_VIEWER_BAND_BYTES % 4 != 0
+#error "YB_VIEWER_BAND_BYTES: a multiple of 4, 320 or more"
 #endif
 
 /* From one frame of a turn to the next: 256 frames go round the mountain. */
@@ -48,27 +51,24 @@ enum {
 };
 
 typedef struct {
-    yb_frame_t frame;
-    uint16_t depth[YB_VIEWER_WIDTH * YB_VIEWER_BAND_ROWS];
-    uint8_t pixels[YB_VIEWER_PITCH * YB_VIEWER_BAND_ROWS];
-} yb_viewer_drawing_t;
-
-typedef struct {
-    yb_map_t map;
+    yb_map_t map; /* rows are drawn behind what it needs, up to where the frame begins */
+    union {       /* never two at once */
+        struct {
+            uint32_t band[YB_VIEWER_BAND_BYTES / 4];
+            yb_frame_t frame;
+        } drawing;
+        yb_load_t load;
+        uint8_t heights[YB_SHADOW_WORK(YB_VIEWER_SHADOW_SIDE)];
+    } work;
     uint8_t looks; /* YB_VIEWER_SHADOWS, YB_VIEWER_LINES; 0 after loading */
     yb_shadow_t shadow;
     uint8_t lit[YB_SHADOW_BYTES(YB_VIEWER_SHADOW_SIDE)];
-    union { /* never two at once */
-        yb_load_t load;
-        uint8_t heights[YB_SHADOW_WORK(YB_VIEWER_SHADOW_SIDE)];
-        yb_viewer_drawing_t drawing;
-    } work;
 } yb_viewer_t;
 
-/* Takes the finished rows y to y + YB_VIEWER_BAND_ROWS - 1, YB_VIEWER_PITCH bytes each; `pixels`
- * is valid for the call.
+/* Takes some finished rows, from row y down, YB_VIEWER_PITCH bytes each; `pixels` is valid for the
+ * call.
  */
-typedef void (*yb_viewer_band_fn)(void *context, uint16_t y, const uint8_t *pixels);
+typedef void (*yb_viewer_band_fn)(void *context, uint16_t y, uint16_t rows, const uint8_t *pixels);
 
 /* Loads a code of at most `room` bytes. What follows the code's last byte is not looked at, so a
  * code may lie at the start of a larger piece of flash. After an error there is no map to draw. The

@@ -24,29 +24,33 @@ enum {
     SHADOW_SIDE = 64
 };
 
-static yb_map_t map;
 static uint8_t lit[YB_SHADOW_BYTES(SHADOW_SIDE)];
 static yb_shadow_t shadow = {.side = SHADOW_SIDE, .lit = lit};
-static union {
-    yb_load_t load;
-    uint8_t heights[YB_SHADOW_WORK(SHADOW_SIDE)];
-    struct {
-        yb_frame_t frame;
-        uint32_t band[BENCH_BAND_BYTES / 4];
-    } drawing;
-} work;
+static struct {
+    yb_map_t map; /* what it leaves of its memory makes bands taller */
+    union {
+        struct {
+            uint32_t band[BENCH_BAND_BYTES / 4];
+            yb_frame_t frame;
+        } drawing;
+        yb_load_t load;
+        uint8_t heights[YB_SHADOW_WORK(SHADOW_SIDE)];
+    } work;
+} memory;
 
 /* --- What is measured ------------------------------------------------------------------------- */
 
 static yb_view_t views[YB_STANDARD_VIEWS];
 
-/* The standard setting of a screen size is measured from all the standard views, what other bands
- * cost from the orbits alone.
+/* The standard setting of a screen size, in so many KB for all of it, is measured from all the
+ * standard views: its bands are as high as there is memory for. What other bands cost is measured
+ * from the orbits alone.
  */
 typedef struct {
     const char *name;
     yb_screen_t screen;
-    uint16_t rows;
+    uint16_t rows; /* of a band, if only its own memory is used */
+    bool spare;    /* what the map leaves is used too */
     uint16_t views;
     void (*look)(yb_view_t *view); /* what is drawn beside the relief, or NULL */
 } setting_t;
@@ -60,12 +64,12 @@ static void with_shadows(yb_view_t *view)
 
 static void with_lines(yb_view_t *view)
 {
-    view->contour_q8 = (map.high_q8 - map.low_q8) / 10 + YB_LEAST_CONTOUR_Q8;
+    view->contour_q8 = (memory.map.high_q8 - memory.map.low_q8) / 10 + YB_LEAST_CONTOUR_Q8;
 }
 
 static void with_haze(yb_view_t *view)
 {
-    view->haze_q8 = map.east_q8;
+    view->haze_q8 = memory.map.east_q8;
 }
 
 static void with_all(yb_view_t *view)
@@ -76,35 +80,56 @@ static void with_all(yb_view_t *view)
 }
 
 static const setting_t settings[] = {
-    {"128x64-rows8", {128, 64, YB_GREY4}, 8, YB_STANDARD_VIEWS, NULL},
-    {"128x64-rows8-shadows", {128, 64, YB_GREY4}, 8, ORBITS, with_shadows},
-    {"128x64-rows8-lines", {128, 64, YB_GREY4}, 8, ORBITS, with_lines},
-    {"128x64-rows8-haze", {128, 64, YB_GREY4}, 8, ORBITS, with_haze},
-    {"128x64-rows8-all", {128, 64, YB_GREY4}, 8, ORBITS, with_all},
-    {"128x64-rows1", {128, 64, YB_GREY4}, 1, ORBITS, NULL},
-    {"128x64-rows4", {128, 64, YB_GREY4}, 4, ORBITS, NULL},
-    {"128x64-rows16", {128, 64, YB_GREY4}, 16, ORBITS, NULL},
-    {"128x64-rows64", {128, 64, YB_GREY4}, 64, ORBITS, NULL},
-    {"320x240-rows12", {320, 240, YB_RGB565}, 12, YB_STANDARD_VIEWS, NULL},
-    {"320x240-rows16", {320, 240, YB_RGB565}, 16, ORBITS, NULL},
-    {"320x240-rows240", {320, 240, YB_RGB565}, 240, ORBITS, NULL},
+    {"128x64-12k", {128, 64, YB_GREY4}, 8, true, YB_STANDARD_VIEWS, NULL},
+    {"128x64-12k-shadows", {128, 64, YB_GREY4}, 8, true, ORBITS, with_shadows},
+    {"128x64-12k-lines", {128, 64, YB_GREY4}, 8, true, ORBITS, with_lines},
+    {"128x64-12k-haze", {128, 64, YB_GREY4}, 8, true, ORBITS, with_haze},
+    {"128x64-12k-all", {128, 64, YB_GREY4}, 8, true, ORBITS, with_all},
+    {"128x64-rows1", {128, 64, YB_GREY4}, 1, false, ORBITS, NULL},
+    {"128x64-rows4", {128, 64, YB_GREY4}, 4, false, ORBITS, NULL},
+    {"128x64-rows8", {128, 64, YB_GREY4}, 8, false, ORBITS, NULL},
+    {"128x64-rows16", {128, 64, YB_GREY4}, 16, false, ORBITS, NULL},
+    {"128x64-rows64", {128, 64, YB_GREY4}, 64, false, ORBITS, NULL},
+    {"320x240-32k", {320, 240, YB_RGB565}, 18, true, YB_STANDARD_VIEWS, NULL},
+    {"320x240-rows16", {320, 240, YB_RGB565}, 16, false, ORBITS, NULL},
+    {"320x240-rows240", {320, 240, YB_RGB565}, 240, false, ORBITS, NULL},
 };
+
+static uint32_t row_bytes(const setting_t *setting)
+{
+    return setting->screen.width * 2u + (uint32_t)yb_screen_pitch(&setting->screen);
+}
 
 static uint32_t band_bytes(const setting_t *setting)
 {
-    return setting->rows *
-           (setting->screen.width * 2u + (uint32_t)yb_screen_pitch(&setting->screen));
+    return setting->rows * row_bytes(setting);
+}
+
+static yb_band_t find_band(const setting_t *setting)
+{
+    uint8_t *begin = (uint8_t *)memory.work.drawing.band;
+    size_t bytes = band_bytes(setting);
+    if (setting->spare) {
+        begin = (uint8_t *)&memory + yb_map_used(&memory.map);
+        bytes += sizeof(yb_map_t) - yb_map_used(&memory.map);
+    }
+    size_t rows = bytes / row_bytes(setting);
+    if (rows > setting->screen.height)
+        rows = setting->screen.height;
+    yb_band_t band = {.rows = (uint16_t)rows,
+                      .depth = (uint16_t *)(void *)begin,
+                      .pitch = yb_screen_pitch(&setting->screen)};
+    band.pixels = (uint8_t *)&band.depth[setting->screen.width * rows];
+    return band;
 }
 
 static void draw(const setting_t *setting, const yb_view_t *view)
 {
-    yb_band_t band = {.rows = setting->rows,
-                      .depth = (uint16_t *)(void *)work.drawing.band,
-                      .pitch = yb_screen_pitch(&setting->screen)};
-    band.pixels = (uint8_t *)&band.depth[setting->screen.width * setting->rows];
-    yb_frame_begin(&work.drawing.frame, &map, view, &setting->screen);
-    for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + setting->rows))
-        yb_frame_band(&work.drawing.frame, &band);
+    yb_frame_t *frame = &memory.work.drawing.frame;
+    yb_band_t band = find_band(setting);
+    yb_frame_begin(frame, &memory.map, view, &setting->screen);
+    for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + band.rows))
+        yb_frame_band(frame, &band);
 }
 
 static void measure_frame(const setting_t *setting, int which)
@@ -136,10 +161,10 @@ static bool measure_load(void)
     report_text("region load\r\n");
     report_paint_stack();
     yb_mark_begin();
-    yb_map_begin(&map, &work.load);
+    yb_map_begin(&memory.map, &memory.work.load);
     yb_status_t status = YB_MORE;
     for (size_t i = 0; i < YB_SLOT_BYTES && status == YB_MORE; i++)
-        status = yb_map_feed(&map, &work.load, &yb_slot[i], 1);
+        status = yb_map_feed(&memory.map, &memory.work.load, &yb_slot[i], 1);
     yb_mark_end();
     report_line("stack", "load", "", report_stack_used());
     if (status != YB_OK) {
@@ -155,7 +180,7 @@ static void measure_shadows(void)
     report_text("region shadows\r\n");
     report_paint_stack();
     yb_mark_begin();
-    yb_shadow_cast(&map, &views[0], &shadow, work.heights);
+    yb_shadow_cast(&memory.map, &views[0], &shadow, memory.work.heights);
     yb_mark_end();
     report_line("stack", "shadows", "", report_stack_used());
 }
@@ -171,10 +196,10 @@ static void measure_all(void)
     yb_mark_end();
     if (!measure_load())
         return;
-    report_line("size", "vertices", "", map.vertex_count);
+    report_line("size", "vertices", "", memory.map.vertex_count);
     for (int which = 0; which < YB_STANDARD_VIEWS; which++) {
-        yb_view_init(&views[which], &map);
-        yb_standard_view_set(&views[which], &map, (yb_standard_view_t)which);
+        yb_view_init(&views[which], &memory.map);
+        yb_standard_view_set(&views[which], &memory.map, (yb_standard_view_t)which);
     }
     measure_shadows();
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {

@@ -1,4 +1,4 @@
-/* Draws the map in the slot from many places, at 128 x 64 in bands of 8 rows, so that the worst
+/* Draws the map in the slot from many places, at 128 x 64 in 12 KB for all of it, so that the worst
  * frame and the worst band can be found. The console is as bench.c's; the regions of camera N are
  *
  *     begin N                preparing its frame
@@ -12,18 +12,20 @@ enum {
     CAMERAS = 125,
     WIDTH = 128,
     HEIGHT = 64,
-    ROWS = 8
+    ROW_BYTES = 2 * WIDTH + WIDTH / 2,
+    ROWS = 8 /* of a band, and more where the map leaves memory */
 };
 
-static yb_map_t map;
-static union {
-    yb_load_t load;
-    struct {
-        yb_frame_t frame;
-        uint16_t depth[WIDTH * ROWS];
-        uint8_t pixels[WIDTH / 2 * ROWS];
-    } drawing;
-} work;
+static struct {
+    yb_map_t map;
+    union {
+        struct {
+            uint32_t band[ROWS * ROW_BYTES / 4];
+            yb_frame_t frame;
+        } drawing;
+        yb_load_t load;
+    } work;
+} memory;
 
 /* The next of a fixed series, from 0 up to below `end`. */
 static uint16_t draw_lot(uint32_t *series, uint32_t end)
@@ -36,33 +38,35 @@ static uint16_t draw_lot(uint32_t *series, uint32_t end)
 static void place(yb_view_t *view, uint32_t *series)
 {
     uint16_t azimuth = draw_lot(series, 65535);
-    yb_view_init(view, &map);
+    yb_view_init(view, &memory.map);
     if (draw_lot(series, 2) == 0) {
         uint16_t elevation = (uint16_t)(YB_DEGREES(5) + draw_lot(series, YB_DEGREES(80)));
-        yb_view_orbit(view, &map, azimuth, elevation, (uint16_t)(150 + draw_lot(series, 400)));
+        yb_view_orbit(view, &memory.map, azimuth, elevation, (uint16_t)(150 + draw_lot(series, 400)));
         return;
     }
-    uint16_t x = draw_lot(series, map.east_q8);
-    uint16_t y = draw_lot(series, map.north_q8);
+    uint16_t x = draw_lot(series, memory.map.east_q8);
+    uint16_t y = draw_lot(series, memory.map.north_q8);
     int16_t tilt = (int16_t)(draw_lot(series, YB_DEGREES(50)) - YB_DEGREES(40));
-    yb_view_walk(view, &map, x, y, 256 + draw_lot(series, 8192), azimuth, tilt);
+    yb_view_walk(view, &memory.map, x, y, 256 + draw_lot(series, 8192), azimuth, tilt);
 }
 
 static void draw(uint32_t camera, const yb_view_t *view)
 {
     static const yb_screen_t screen = {WIDTH, HEIGHT, YB_GREY4};
-    yb_band_t band = {.rows = ROWS,
-                      .depth = work.drawing.depth,
-                      .pixels = work.drawing.pixels,
+    const size_t used = yb_map_used(&memory.map);
+    const size_t rows = (sizeof(yb_map_t) - used) / ROW_BYTES + ROWS;
+    yb_band_t band = {.rows = (uint16_t)(rows < HEIGHT ? rows : HEIGHT),
+                      .depth = (uint16_t *)(void *)((uint8_t *)&memory + used),
                       .pitch = WIDTH / 2};
+    band.pixels = (uint8_t *)&band.depth[WIDTH * (size_t)band.rows];
     report_line("region", "begin", "", camera);
     yb_mark_begin();
-    yb_frame_begin(&work.drawing.frame, &map, view, &screen);
+    yb_frame_begin(&memory.work.drawing.frame, &memory.map, view, &screen);
     yb_mark_end();
-    for (; band.y < HEIGHT; band.y = (uint16_t)(band.y + ROWS)) {
+    for (; band.y < HEIGHT; band.y = (uint16_t)(band.y + band.rows)) {
         report_line("region", "band", "", camera * HEIGHT + band.y);
         yb_mark_begin();
-        yb_frame_band(&work.drawing.frame, &band);
+        yb_frame_band(&memory.work.drawing.frame, &band);
         yb_mark_end();
     }
 }
@@ -70,10 +74,10 @@ static void draw(uint32_t camera, const yb_view_t *view)
 int main(void)
 {
     yb_board_init();
-    yb_map_begin(&map, &work.load);
+    yb_map_begin(&memory.map, &memory.work.load);
     yb_status_t status = YB_MORE;
     for (size_t i = 0; i < YB_SLOT_BYTES && status == YB_MORE; i++)
-        status = yb_map_feed(&map, &work.load, &yb_slot[i], 1);
+        status = yb_map_feed(&memory.map, &memory.work.load, &yb_slot[i], 1);
     if (status == YB_OK) {
         uint32_t series = 1;
         /* What the markers themselves cost. */

@@ -349,10 +349,10 @@ static void write_console(void *context, char character)
         putchar(character);
 }
 
-static void send_band(void *context, uint16_t y, const uint8_t *pixels)
+static void send_band(void *context, uint16_t y, uint16_t rows, const uint8_t *pixels)
 {
     handheld_t *handheld = context;
-    if (!yb_display_write_rows(&handheld->display, y, YB_VIEWER_BAND_ROWS, pixels))
+    if (!yb_display_write_rows(&handheld->display, y, rows, pixels))
         fail(handheld->scene, yb_panel_model_error(handheld->scene->wires.model));
 }
 

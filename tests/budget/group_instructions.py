@@ -78,12 +78,12 @@ def ratios(figures):
     for look in ("shadows", "lines", "haze", "all"):
         for target in boards.TARGETS.values():
             plain, richer = (frame(setting, target)
-                             for setting in ("128x64-rows8", f"128x64-rows8-{look}"))
+                             for setting in ("128x64-12k", f"128x64-12k-{look}"))
             if plain and richer:
-                yield (f"128x64-rows8-{look} against 128x64-rows8", target,
+                yield (f"128x64-12k-{look} against 128x64-12k", target,
                        f"{richer / plain:.2f}", "ratio")
-    pair = [frame("128x64-rows8", target) for target in ("cortex-m0", "cortex-m3")]
-    yield "128x64-rows8 against cortex-m3", "cortex-m0", f"{pair[0] / pair[1]:.2f}", "ratio"
+    pair = [frame("128x64-12k", target) for target in ("cortex-m0", "cortex-m3")]
+    yield "128x64-12k against cortex-m3", "cortex-m0", f"{pair[0] / pair[1]:.2f}", "ratio"
 
 
 def measure():

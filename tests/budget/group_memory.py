@@ -3,7 +3,7 @@
 import boards
 
 # The band that each screen size is measured with.
-STANDARD = ("128x64-rows8", "320x240-rows12")
+STANDARD = ("128x64-12k", "320x240-32k")
 STRUCTS = ("yb_map_t", "yb_load_t", "yb_frame_t")
 
 

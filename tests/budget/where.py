@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Where the instructions of one region of the bench go, by function.
 
-    where.py [--board lm3s6965evb] [--map MAP.yb] [--region "frame 128x64-rows8 orbit-45"]
+    where.py [--board lm3s6965evb] [--map MAP.yb] [--region "frame 128x64-12k orbit-45"]
 
 A line a function: share of the region, instructions, name. What the compiler has inlined counts
 for the function that it was inlined into.
@@ -45,7 +45,7 @@ def main():
     parser = argparse.ArgumentParser(description="instructions of a region by function")
     parser.add_argument("--board", default="lm3s6965evb", choices=boards.TARGETS)
     parser.add_argument("--map", help="a code; without it the first that bench measures")
-    parser.add_argument("--region", default="frame 128x64-rows8 orbit-45")
+    parser.add_argument("--region", default="frame 128x64-12k orbit-45")
     options = parser.parse_args()
     try:
         code = pathlib.Path(options.map).read_bytes() if options.map else \

@@ -10,11 +10,11 @@
 
 static yb_viewer_t viewer;
 
-static void write_band(void *context, uint16_t y, const uint8_t *pixels)
+static void write_band(void *context, uint16_t y, uint16_t rows, const uint8_t *pixels)
 {
     (void)y;
     FILE *out = context;
-    (void)fwrite(pixels, YB_VIEWER_PITCH, YB_VIEWER_BAND_ROWS, out);
+    (void)fwrite(pixels, YB_VIEWER_PITCH, rows, out);
 }
 
 static yb_status_t load(const char *path)

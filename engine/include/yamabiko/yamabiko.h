@@ -160,13 +160,22 @@ typedef struct {
     uint8_t hurst_q8m1;      /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
     bool smooth;             /* midpoints follow the slopes of the ends */
     bool detail;             /* midpoints move by noise; clear it to get the smooth part alone */
-    yb_vertex_t vertex[YB_MAX_VERTICES];
     yb_index_t triangle[YB_MAX_TRIANGLES][3];
     /* Per length class: the noise's scale (q8 height for one unit of the hash sum is scale/2^9),
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
+    yb_vertex_t vertex[YB_MAX_VERTICES]; /* the last member: see yb_map_used */
 } yb_map_t;
+
+/* Bytes of a map's struct, from its beginning, that its mesh takes up: a multiple of 4. What lies
+ * behind them, 12 bytes for each vertex it has less than YB_MAX_VERTICES, serves for anything else
+ * until another map is loaded there: for a taller band, if the band's memory follows the map's.
+ */
+static inline size_t yb_map_used(const yb_map_t *map)
+{
+    return offsetof(yb_map_t, vertex) + map->vertex_count * sizeof map->vertex[0];
+}
 
 /* One contour of a code, as decoded. */
 typedef struct {

@@ -11,11 +11,11 @@ static yb_display_t display = {.panel = &yb_panel_ssd0323, .bus = &yb_oled_bus};
 static uint8_t shown[YB_VIEWER_PITCH * YB_VIEWER_HEIGHT];
 static yb_update_t update = {.display = &display, .shown = shown};
 
-static void show_band(void *context, uint16_t y, const uint8_t *pixels)
+static void show_band(void *context, uint16_t y, uint16_t rows, const uint8_t *pixels)
 {
     (void)context;
     /* The bus never fails, and the band lies on the panel. */
-    (void)yb_update_rows(&update, y, YB_VIEWER_BAND_ROWS, pixels);
+    (void)yb_update_rows(&update, y, rows, pixels);
 }
 
 int main(void)
