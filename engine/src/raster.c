@@ -100,7 +100,7 @@ static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, i
     }
 }
 
-void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+static inline __attribute__((always_inline)) void level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel, yb_format_t format)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];
@@ -115,7 +115,6 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
     const int32_t base_q4 = a->x_q4 & ~(int32_t)127; /* whole bytes of pixels */
     side_t left = y < left_end ? side_of(a, b, base_q4, y) : side_of(b, c, base_q4, y);
     side_t right = y < right_end ? side_of(a, c, base_q4, y) : side_of(c, b, base_q4, y);
-    const yb_format_t format = raster->screen->format;
     const uint16_t near = mean_near(shape->p);
     const size_t width = raster->screen->width;
     const size_t pitch = raster->band->pitch;
@@ -124,7 +123,7 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
                    (format == YB_GREY4 ? base_q4 >> 5 : format == YB_RGB565 ? base_q4 >> 3 : base_q4 >> 7);
     for (;;) {
         fill_row(format, depth, row, pixel_of(&left), pixel_of(&right), near,
-                 in_row(raster, pixel, y));
+                 format == YB_MONO ? in_row(raster, pixel, y) : pixel);
         if (++y == end)
             return;
         depth += width;
@@ -136,6 +135,16 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
         if (y == right_end)
             right = side_of(c, b, base_q4, y);
     }
+}
+
+void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    if (raster->screen->format == YB_GREY4)
+        level(raster, shape, pixel, YB_GREY4);
+    else if (raster->screen->format == YB_RGB565)
+        level(raster, shape, pixel, YB_RGB565);
+    else
+        level(raster, shape, pixel, YB_MONO);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
