@@ -58,7 +58,7 @@ static inline side_t side_of(const yb_spot_t *from, const yb_spot_t *to, int32_t
 {
     const int32_t slope = rows_small_slope(to->x_q4 - (int32_t)from->x_q4,
                                            to->y_q4 - (int32_t)from->y_q4);
-    const int32_t at = (from->x_q4 - base_q4 + 8) * ((int32_t)1 << ROWS_FRACTION) - 1 +
+    const int32_t at = (from->x_q4 - base_q4) * ((int32_t)1 << ROWS_FRACTION) - 1 +
                        slope * (y * 16 + 8 - from->y_q4);
     return (side_t){(uint32_t)at, (uint32_t)slope << 4};
 }
@@ -113,8 +113,9 @@ static inline __attribute__((always_inline)) void level(const raster_t *raster, 
     const int32_t left_end = raster_pixel(b->y_q4);
     const int32_t right_end = raster_pixel(c->y_q4);
     const int32_t base_q4 = a->x_q4 & ~(int32_t)127; /* whole bytes of pixels */
-    side_t left = y < left_end ? side_of(a, b, base_q4, y) : side_of(b, c, base_q4, y);
-    side_t right = y < right_end ? side_of(a, c, base_q4, y) : side_of(c, b, base_q4, y);
+    const int32_t centre_q4 = base_q4 - 8;
+    side_t left = y < left_end ? side_of(a, b, centre_q4, y) : side_of(b, c, centre_q4, y);
+    side_t right = y < right_end ? side_of(a, c, centre_q4, y) : side_of(c, b, centre_q4, y);
     const uint16_t near = mean_near(shape->p);
     const size_t width = raster->screen->width;
     const size_t pitch = raster->band->pitch;
@@ -131,9 +132,9 @@ static inline __attribute__((always_inline)) void level(const raster_t *raster, 
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)
-            left = side_of(b, c, base_q4, y);
+            left = side_of(b, c, centre_q4, y);
         if (y == right_end)
-            right = side_of(c, b, base_q4, y);
+            right = side_of(c, b, centre_q4, y);
     }
 }
 

@@ -355,13 +355,17 @@ static bool draw_lines(const yb_frame_t *frame, const raster_t *raster,
     return true;
 }
 
-/* A leaf some of which may be in the band. */
-static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
+/* A leaf: draws it, if some of it may be in the band. */
+static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
 {
+    const int beyond = a->spot.out & b->spot.out & c->spot.out;
+    const int some = a->spot.out | b->spot.out | c->spot.out;
+    if ((beyond & REFINE_SIDES) != 0)
+        return;
     yb_frame_t *frame = walk->frame;
     const raster_t *raster = walk->raster;
     const yb_point_t *const p[3] = {a, b, c};
-    if (((a->spot.out | b->spot.out | c->spot.out) & REFINE_NOWHERE) != 0) {
+    if ((some & REFINE_NOWHERE) != 0) {
         draw_clipped(frame, walk->view, raster, p);
         return;
     }
@@ -378,13 +382,6 @@ static void show(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
     if (frame->lines && draw_lines(frame, raster, p, &shape, look, shade))
         return;
     raster_fill(raster, &shape, look, shade.pixel);
-}
-
-static inline void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,
-                        const yb_point_t *c)
-{
-    if ((a->spot.out & b->spot.out & c->spot.out & REFINE_SIDES) == 0)
-        show(walk, a, b, c);
 }
 
 /* A triangle whose edges are split once or not at all: refine_split, and its parts in the order of
