@@ -33,14 +33,22 @@ static const uint16_t reciprocal_table[65] YB_ROM = {
 
 #define INVERSE(a) ((uint32_t)1 << 21) / (a)
 #define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
-#define INVERSES_16(a) \
-    INVERSES_4(a), INVERSES_4((a) + 4), INVERSES_4((a) + 8), INVERSES_4((a) + 12)
-#define INVERSES_64(a) \
+#define INVERSES_16(a) INVERSES_4(a), INVERSES_4((a) + 4), INVERSES_4((a) + 8), INVERSES_4((a) + 12)
+#define INVERSES_64(a)                                                                             \
     INVERSES_16(a), INVERSES_16((a) + 16), INVERSES_16((a) + 32), INVERSES_16((a) + 48)
-const uint32_t fix_inverse_table[256] YB_ROM = {
-    0, INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
-    INVERSES_16(16), INVERSES_16(32), INVERSES_16(48),
-    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)};
+const uint32_t fix_inverse_table[256] YB_ROM = {0,
+                                                INVERSE(1),
+                                                INVERSE(2),
+                                                INVERSE(3),
+                                                INVERSES_4(4),
+                                                INVERSES_4(8),
+                                                INVERSES_4(12),
+                                                INVERSES_16(16),
+                                                INVERSES_16(32),
+                                                INVERSES_16(48),
+                                                INVERSES_64(64),
+                                                INVERSES_64(128),
+                                                INVERSES_64(192)};
 
 int32_t fix_log2_q11(uint64_t a)
 {

@@ -169,8 +169,8 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
     return stray + (relief_reach(map, &bound, class + 4 - 4 * count) >> 1) + 1;
 }
 
-/* What of a triangle strays so far in height, when some of it may be in the water: what is above may
- * sink to it where the ground between dips under it.
+/* What of a triangle strays so far in height, when some of it may be in the water: what is above
+ * may sink to it where the ground between dips under it.
  */
 static int32_t stray_in_water(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t stray)
 {
@@ -246,8 +246,8 @@ static int32_t whole_stray(const yb_map_t *map, const yb_point_t *const p[3])
     uint32_t square = 0;
     for (int i = 0; i < 3; i++) {
         const yb_point_t *q = p[i == 2 ? 0 : i + 1];
-        uint32_t other = relief_half_square(relief_dx(p[i]->place, q->place),
-                                            relief_dy(p[i]->place, q->place));
+        uint32_t other =
+            relief_half_square(relief_dx(p[i]->place, q->place), relief_dy(p[i]->place, q->place));
         square = other > square ? other : square;
     }
     const relief_bound_t bound = {0, relief_square_class(square)};

@@ -51,11 +51,6 @@ static void find_gradient(const yb_spot_t *const p[3], const int32_t value[3], i
         *along_x = *along_y = 0;
 }
 
-typedef struct {
-    uint32_t at_q14; /* the value at a pixel */
-    int32_t along_x, along_y;
-} plane_t;
-
 /* The value at the pixel (0, y), from values of 16 bits at the corners. */
 static void plane_start(plane_t *plane, const yb_spot_t *const p[3], const int32_t value[3],
                         int32_t y)
@@ -70,11 +65,6 @@ static void plane_start(plane_t *plane, const yb_spot_t *const p[3], const int32
                     (uint32_t)(plane->along_y >> 4) * (uint32_t)(y0 * 16 + 8 - p[0]->y_q4) -
                     (uint32_t)plane->along_x * (uint32_t)x0 +
                     (uint32_t)plane->along_y * (uint32_t)(y - y0);
-}
-
-static inline uint16_t depth_of(uint32_t near_q14)
-{
-    return (uint16_t)fix_clamp((int32_t)near_q14 >> 14, 1, 65535);
 }
 
 /* The pixels from x up to end of a row. */
@@ -92,54 +82,18 @@ static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
-/* A triangle's cut, as it goes from row to row. */
-typedef struct {
-    const raster_cut_t *cut;
-    plane_t plane;
-    int32_t half; /* of a line's width in value, and of the interval, 14 fractional bits */
-    int32_t half_interval;
-} cutter_t;
-
-/* False: the lines would lie so close together that nothing else would be left. */
-static bool cutter_start(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
-                         int32_t y)
+bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
+                    int32_t y)
 {
     int32_t value[3];
-    for (int i = 0; i < 3; i++)
-        value[i] = cut->value[(shape->first + i) % 3];
+    for (int i = 0, k = shape->first; i < 3; i++, k = k == 2 ? 0 : k + 1)
+        value[i] = cut->value[k];
     cutter->cut = cut;
     plane_start(&cutter->plane, shape->p, value, y);
     cutter->plane.at_q14 -= (uint32_t)cut->zero << 14;
     cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
     cutter->half_interval = cut->interval << 13;
     return cut->interval == 0 || cutter->half < cutter->half_interval >> 2;
-}
-
-/* As draw_span, with lines. Values are below 2^16, and the interval is: within 2^30. */
-static void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t y, int32_t x,
-                     int32_t end, const plane_t *plane, const cutter_t *cutter)
-{
-    const raster_cut_t *cut = cutter->cut;
-    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
-    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    const uint16_t below = in_row(raster, cut->below, y);
-    const uint16_t above = in_row(raster, cut->above, y);
-    const uint16_t line = in_row(raster, cut->line, y);
-    for (; x < end; x++) {
-        const uint16_t nearer = depth_of(near);
-        if (nearer > depth[x]) {
-            int32_t off = (int32_t)value;
-            while (cut->interval > 0 && off >= cutter->half_interval)
-                off -= 2 * cutter->half_interval;
-            depth[x] = nearer;
-            put_pixel(raster, row, x,
-                      fix_abs(off) <= cutter->half ? line
-                      : off < 0                    ? below
-                                                   : above);
-        }
-        near += (uint32_t)plane->along_x;
-        value += (uint32_t)cutter->plane.along_x;
-    }
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
@@ -153,9 +107,10 @@ static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t
 {
     const int32_t dx = to->x_q4 - (int32_t)from->x_q4;
     const int32_t dy = to->y_q4 - (int32_t)from->y_q4;
-    const int64_t slope = dy <= RASTER_HIGH_Q4 && raster_is_small(dx)
-                              ? rows_small_slope(dx, dy)
-                              : (int64_t)((raster_area_t)dx * 65536 / dy) * (1 << (ROWS_FRACTION - 16));
+    const int64_t slope =
+        dy <= RASTER_HIGH_Q4 && raster_is_small(dx)
+            ? rows_small_slope(dx, dy)
+            : (int64_t)((raster_area_t)dx * 65536 / dy) * (1 << (ROWS_FRACTION - 16));
     const int64_t start = (int64_t)(from->x_q4 + 8) * ((int32_t)1 << ROWS_FRACTION) - 1;
     return (long_side_t){start + slope * (y * 16 + 8 - from->y_q4), slope * 16};
 }
@@ -177,7 +132,7 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
     cutter_t cutter = {.cut = NULL};
-    bool cuts = cut != NULL && cutter_start(&cutter, cut, shape, y);
+    bool cuts = cut != NULL && rows_start_cut(&cutter, cut, shape, y);
     const int32_t left_end = raster_pixel(p[1]->y_q4);
     const int32_t right_end = raster_pixel(p[2]->y_q4);
     long_side_t left = y < left_end ? long_side(p[0], p[1], y) : long_side(p[1], p[2], y);

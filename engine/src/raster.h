@@ -112,10 +112,11 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
  * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
  * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
- * is for small ones alone that lie between the screen's left and right side, at one depth; with a
- * cut (or NULL) the second draws its lines.
+ * is for small ones alone that lie between the screen's left and right side, at one depth. With a
+ * cut (or NULL) both draw its lines.
  */
-void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
+void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
+                  const raster_cut_t *cut);
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
                   uint16_t pixel, const raster_cut_t *cut);
 
@@ -125,13 +126,13 @@ static inline bool raster_on_screen(const raster_t *raster, const yb_spot_t *p)
 }
 
 static inline void raster_fill(const raster_t *raster, const raster_shape_t *shape,
-                               raster_look_t look, uint16_t pixel)
+                               raster_look_t look, uint16_t pixel, const raster_cut_t *cut)
 {
     if (look == RASTER_SMALL && raster_on_screen(raster, shape->p[0]) &&
         raster_on_screen(raster, shape->p[1]) && raster_on_screen(raster, shape->p[2]))
-        raster_level(raster, shape, pixel);
+        raster_level(raster, shape, pixel, cut);
     else
-        raster_plane(raster, shape, look, pixel, NULL);
+        raster_plane(raster, shape, look, pixel, cut);
 }
 
 /* Both: looks, and draws what is in front, if there is a band. */

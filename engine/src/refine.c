@@ -173,9 +173,9 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-/* A surface of the second degree bulges from its plane at most 4/3 of what it does on an edge; a line
- * from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such lines at most one
- * is split on.
+/* A surface of the second degree bulges from its plane at most 4/3 of what it does on an edge; a
+ * line from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such lines at
+ * most one is split on.
  */
 int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3])
 {
@@ -343,18 +343,6 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
         hand_out(raster, p);
 }
 
-/* Draws a triangle that a line crosses, of the shore or of a contour; false: none does. */
-static bool draw_lines(const yb_frame_t *frame, const raster_t *raster,
-                       const yb_point_t *const p[3], const raster_shape_t *shape,
-                       raster_look_t look, shade_t shade)
-{
-    raster_cut_t cut;
-    if (!shade_cut(frame, p, shade, &cut))
-        return false;
-    raster_plane(raster, shape, look, shade.pixel, &cut);
-    return true;
-}
-
 /* A leaf: draws it, if some of it may be in the band. */
 static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
 {
@@ -379,9 +367,9 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         return;
     }
     const shade_t shade = shade_ground(frame, p);
-    if (frame->lines && draw_lines(frame, raster, p, &shape, look, shade))
-        return;
-    raster_fill(raster, &shape, look, shade.pixel);
+    raster_cut_t cut;
+    const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
+    raster_fill(raster, &shape, look, shade.pixel, cuts ? &cut : NULL);
 }
 
 /* A triangle whose edges are split once or not at all: refine_split, and its parts in the order of

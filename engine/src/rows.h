@@ -1,5 +1,5 @@
-/* What the two ways to fill a triangle share: its sides, and the pixels between them. raster.c fills
- * small ones at one depth, fast; plane.c all others.
+/* What the two ways to fill a triangle share: its sides, and the pixels between them. raster.c
+ * fills small ones at one depth, fast; plane.c all others.
  */
 #ifndef YB_ROWS_H
 #define YB_ROWS_H
@@ -46,7 +46,7 @@ static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, ui
 
 /* A row's whole pixels lie this far up in where a side crosses it. */
 enum {
-    ROWS_FRACTION = 21,         /* of a sixteenth of a pixel */
+    ROWS_FRACTION = 21, /* of a sixteenth of a pixel */
     ROWS_PIXEL = ROWS_FRACTION + 4
 };
 
@@ -57,6 +57,63 @@ enum {
 static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
 {
     return dx * (int32_t)fix_inverse(dy);
+}
+
+/* --- Values ----------------------------------------------------------------------------------- */
+
+/* A value that is linear on a triangle, at a pixel. */
+typedef struct {
+    uint32_t at_q14;
+    int32_t along_x, along_y;
+} plane_t;
+
+/* 1/depth, of which it is a plane. */
+static inline uint16_t depth_of(uint32_t near_q14)
+{
+    return (uint16_t)fix_clamp((int32_t)near_q14 >> 14, 1, 65535);
+}
+
+/* --- Lines ------------------------------------------------------------------------------------ */
+
+/* A triangle's cut, as it goes from row to row. */
+typedef struct {
+    const raster_cut_t *cut;
+    plane_t plane;
+    int32_t half; /* of a line's width in value, and of the interval, 14 fractional bits */
+    int32_t half_interval;
+} cutter_t;
+
+/* From row y on. False: the lines would lie so close together that nothing else would be left. */
+bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
+                    int32_t y);
+
+/* The pixels from x up to end of row y, with lines, where `plane`, the depth, is nearer than what
+ * is there. Valuesare below 2^16, and the interval is: within 2^30.
+ */
+static inline void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t y,
+                            int32_t x, int32_t end, const plane_t *plane, const cutter_t *cutter)
+{
+    const raster_cut_t *cut = cutter->cut;
+    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
+    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
+    const uint16_t below = in_row(raster, cut->below, y);
+    const uint16_t above = in_row(raster, cut->above, y);
+    const uint16_t line = in_row(raster, cut->line, y);
+    for (; x < end; x++) {
+        const uint16_t nearer = depth_of(near);
+        if (nearer > depth[x]) {
+            int32_t off = (int32_t)value;
+            while (cut->interval > 0 && off >= cutter->half_interval)
+                off -= 2 * cutter->half_interval;
+            depth[x] = nearer;
+            put_pixel(raster, row, x,
+                      fix_abs(off) <= cutter->half ? line
+                      : off < 0                    ? below
+                                                   : above);
+        }
+        near += (uint32_t)plane->along_x;
+        value += (uint32_t)cutter->plane.along_x;
+    }
 }
 
 /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */

@@ -161,8 +161,7 @@ static int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t
 static inline bool all_dry(const yb_frame_t *frame, const yb_point_t *const p[3])
 {
     int32_t water = frame->view.water_q8;
-    return water == YB_NO_WATER ||
-           (p[0]->z_q8 > water && p[1]->z_q8 > water && p[2]->z_q8 > water);
+    return water == YB_NO_WATER || (p[0]->z_q8 > water && p[1]->z_q8 > water && p[2]->z_q8 > water);
 }
 
 /* The shade of a triangle of the ground, of the water, or between them. */

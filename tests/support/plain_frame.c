@@ -98,10 +98,8 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
             return;
         raster_shape_t shape;
         raster_look_t look = raster_front(spot[0], spot[1], spot[2], &shape);
-        if (drawing->frame->lines && shade_cut(drawing->frame, p, shade, &cut))
-            raster_plane(&drawing->raster, &shape, look, pixel, &cut);
-        else
-            raster_fill(&drawing->raster, &shape, look, pixel);
+        const bool cuts = drawing->frame->lines && shade_cut(drawing->frame, p, shade, &cut);
+        raster_fill(&drawing->raster, &shape, look, pixel, cuts ? &cut : NULL);
     }
 }
 
