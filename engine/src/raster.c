@@ -63,7 +63,7 @@ static inline side_t side_of(const yb_spot_t *from, const yb_spot_t *to, int32_t
     return (side_t){(uint32_t)at, (uint32_t)slope << 4};
 }
 
-static inline int32_t pixel_of(const side_t *side)
+static inline int32_t crossing_of(const side_t *side)
 {
     return (int32_t)side->at >> ROWS_PIXEL;
 }
@@ -133,10 +133,10 @@ static inline __attribute__((always_inline)) void draw_level(const raster_t *ras
     }
     for (;;) {
         if (cutter != NULL)
-            draw_cut(raster, depth, row, y, base + pixel_of(&left), base + pixel_of(&right), &plane,
+            draw_cut(raster, depth, row, y, base + crossing_of(&left), base + crossing_of(&right), &plane,
                      cutter);
         else
-            fill_row(format, depth, row, pixel_of(&left), pixel_of(&right),
+            fill_row(format, depth, row, crossing_of(&left), crossing_of(&right),
                      (uint16_t)(plane.at_q14 >> 14),
                      format == YB_MONO ? in_row(raster, pixel, y) : pixel);
         if (++y == end)

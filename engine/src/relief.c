@@ -229,7 +229,7 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
     }
 }
 
-static int32_t farthest_stray(const yb_map_t *map)
+static int32_t most_stray(const yb_map_t *map)
 {
     int32_t farthest = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
@@ -253,5 +253,5 @@ void relief_prepare(yb_map_t *map, const yb_load_t *load)
     }
     int32_t hurst_q8 = map->hurst_q8m1 + 1;
     fill_tables(map, log2_amplitude(map, load, hurst_q8), hurst_q8);
-    map->stray_q8 = farthest_stray(map);
+    map->stray_q8 = most_stray(map);
 }
