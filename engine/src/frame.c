@@ -1,4 +1,5 @@
 /* A frame: prepared once, drawn band by band. */
+#include <stddef.h>
 #include <string.h>
 
 #include "camera.h"
@@ -67,6 +68,34 @@ static void begin_lines(yb_frame_t *frame, int32_t stray)
     frame->view.contour_q8 = interval;
     frame->contour_low = at + ((low - at) / interval - 1) * interval;
     frame->contour_inverse = ((uint32_t)1 << 20) / (uint32_t)interval;
+}
+
+static size_t aligned(size_t offset)
+{
+    const size_t to = _Alignof(yb_frame_t);
+    return (offset + to - 1) / to * to;
+}
+
+yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band)
+{
+    const size_t vertices = map->vertex_count;
+    const size_t at_frame = aligned(offsetof(yb_map_t, vertex) + vertices * sizeof(yb_vertex_t));
+    const size_t at_band =
+        aligned(at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t));
+    const size_t pitch = yb_screen_pitch(screen);
+    const size_t row = screen->width * sizeof *band->depth + pitch;
+    if (bytes < at_band + row)
+        return NULL;
+    const size_t fit = (bytes - at_band) / row;
+    const size_t rows = fit < screen->height ? fit : screen->height;
+    uint8_t *memory = (uint8_t *)map;
+    *band = (yb_band_t){
+        .rows = (uint16_t)rows,
+        .depth = (uint16_t *)(void *)(memory + at_band),
+        .pixels = memory + at_band + rows * screen->width * sizeof *band->depth,
+        .pitch = pitch,
+    };
+    return (yb_frame_t *)(void *)(memory + at_frame);
 }
 
 void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,

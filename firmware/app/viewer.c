@@ -77,19 +77,6 @@ static uint32_t hash_bytes(uint32_t hash, const uint8_t *bytes, size_t count)
     return hash;
 }
 
-/* As many rows as there is memory for. */
-static yb_band_t find_band(yb_viewer_t *viewer)
-{
-    uint8_t *begin = (uint8_t *)viewer + offsetof(yb_viewer_t, map) + yb_map_used(&viewer->map);
-    const size_t bytes = (size_t)((uint8_t *)&viewer->work.drawing.frame - begin);
-    const size_t rows = bytes / YB_VIEWER_ROW_BYTES;
-    yb_band_t band = {.rows = (uint16_t)(rows < YB_VIEWER_HEIGHT ? rows : YB_VIEWER_HEIGHT),
-                      .depth = (uint16_t *)(void *)begin,
-                      .pitch = YB_VIEWER_PITCH};
-    band.pixels = (uint8_t *)&band.depth[(size_t)YB_VIEWER_WIDTH * band.rows];
-    return band;
-}
-
 uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_band_fn band,
                         void *context)
 {
@@ -102,11 +89,14 @@ uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_ban
     if ((viewer->looks & YB_VIEWER_LINES) != 0)
         set_lines(&view, &viewer->map);
 
-    yb_frame_t *frame = &viewer->work.drawing.frame;
-    yb_frame_begin(frame, &viewer->map, &view, &screen);
+    yb_band_t rows;
+    yb_frame_t *frame = yb_frame_place(
+        &viewer->map, offsetof(yb_viewer_t, work) + sizeof viewer->work, &screen, &rows);
     uint32_t hash = FNV_START;
-    for (yb_band_t rows = find_band(viewer); rows.y < YB_VIEWER_HEIGHT;
-         rows.y = (uint16_t)(rows.y + rows.rows)) {
+    if (frame == NULL) /* a map of any size has room for eight rows */
+        return hash;
+    yb_frame_begin(frame, &viewer->map, &view, &screen);
+    for (; rows.y < YB_VIEWER_HEIGHT; rows.y = (uint16_t)(rows.y + rows.rows)) {
         if (rows.rows > YB_VIEWER_HEIGHT - rows.y)
             rows.rows = (uint16_t)(YB_VIEWER_HEIGHT - rows.y);
         yb_frame_band(frame, &rows);

@@ -19,15 +19,15 @@
 #define YB_VIEWER_WIDTH 128
 #define YB_VIEWER_HEIGHT 64
 #define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
-/* Memory for the rows that are drawn at once, beside what the map leaves of its own: 320 bytes each.
- * More rows are faster. A map of 100 bytes gets 11 to 15 of them in all.
+/* Memory for the rows that are drawn at once, beside what the map leaves: 320 bytes a row. More are
+ * faster. A map of 100 bytes gets 13 to 17 of them in all.
  */
 #define YB_VIEWER_ROW_BYTES (2 * YB_VIEWER_WIDTH + YB_VIEWER_PITCH)
 #ifndef YB_VIEWER_BAND_BYTES
 #define YB_VIEWER_BAND_BYTES (8 * YB_VIEWER_ROW_BYTES)
 #endif
-#if YB_VIEWER_BAND_BYTES < YB_VIEWER_ROW_BYTES || YB_VIEWER_BAND_BYTES % 4 != 0
-#error "YB_VIEWER_BAND_BYTES: a multiple of 4, 320 or more"
+#if YB_VIEWER_BAND_BYTES < YB_VIEWER_ROW_BYTES
+#error "YB_VIEWER_BAND_BYTES: 320 or more"
 #endif
 
 /* From one frame of a turn to the next: 256 frames go round the mountain. */
@@ -51,14 +51,11 @@ enum {
 };
 
 typedef struct {
-    yb_map_t map; /* rows are drawn behind what it needs, up to where the frame begins */
-    union {       /* never two at once */
-        struct {
-            uint32_t band[YB_VIEWER_BAND_BYTES / 4];
-            yb_frame_t frame;
-        } drawing;
+    yb_map_t map;
+    union { /* behind the map; never two at once */
         yb_load_t load;
         uint8_t heights[YB_SHADOW_WORK(YB_VIEWER_SHADOW_SIDE)];
+        uint8_t drawing[sizeof(yb_frame_t) + YB_VIEWER_BAND_BYTES];
     } work;
     uint8_t looks; /* YB_VIEWER_SHADOWS, YB_VIEWER_LINES; 0 after loading */
     yb_shadow_t shadow;

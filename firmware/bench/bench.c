@@ -30,8 +30,8 @@ static struct {
     yb_map_t map; /* what it leaves of its memory makes bands taller */
     union {
         struct {
-            uint32_t band[BENCH_BAND_BYTES / 4];
             yb_frame_t frame;
+            uint32_t band[BENCH_BAND_BYTES / 4];
         } drawing;
         yb_load_t load;
         uint8_t heights[YB_SHADOW_WORK(SHADOW_SIDE)];
@@ -105,28 +105,24 @@ static uint32_t band_bytes(const setting_t *setting)
     return setting->rows * row_bytes(setting);
 }
 
-static yb_band_t find_band(const setting_t *setting)
+/* The frame and the band of a setting: each in its own memory, or in what the map leaves. */
+static yb_frame_t *place(const setting_t *setting, yb_band_t *band)
 {
-    uint8_t *begin = (uint8_t *)memory.work.drawing.band;
-    size_t bytes = band_bytes(setting);
-    if (setting->spare) {
-        begin = (uint8_t *)&memory + yb_map_used(&memory.map);
-        bytes += sizeof(yb_map_t) - yb_map_used(&memory.map);
-    }
-    size_t rows = bytes / row_bytes(setting);
-    if (rows > setting->screen.height)
-        rows = setting->screen.height;
-    yb_band_t band = {.rows = (uint16_t)rows,
-                      .depth = (uint16_t *)(void *)begin,
-                      .pitch = yb_screen_pitch(&setting->screen)};
-    band.pixels = (uint8_t *)&band.depth[setting->screen.width * rows];
-    return band;
+    if (setting->spare)
+        return yb_frame_place(&memory.map,
+                              sizeof(yb_map_t) + sizeof(yb_frame_t) + band_bytes(setting),
+                              &setting->screen, band);
+    *band = (yb_band_t){.rows = setting->rows,
+                        .depth = (uint16_t *)(void *)memory.work.drawing.band,
+                        .pitch = yb_screen_pitch(&setting->screen)};
+    band->pixels = (uint8_t *)&band->depth[setting->screen.width * setting->rows];
+    return &memory.work.drawing.frame;
 }
 
 static void draw(const setting_t *setting, const yb_view_t *view)
 {
-    yb_frame_t *frame = &memory.work.drawing.frame;
-    yb_band_t band = find_band(setting);
+    yb_band_t band;
+    yb_frame_t *frame = place(setting, &band);
     yb_frame_begin(frame, &memory.map, view, &setting->screen);
     for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + band.rows))
         yb_frame_band(frame, &band);

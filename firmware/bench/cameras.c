@@ -13,15 +13,15 @@ enum {
     WIDTH = 128,
     HEIGHT = 64,
     ROW_BYTES = 2 * WIDTH + WIDTH / 2,
-    ROWS = 8 /* of a band, and more where the map leaves memory */
+    ROWS = 8 /* there is memory for these, and more where the map leaves some */
 };
 
 static struct {
     yb_map_t map;
     union {
         struct {
-            uint32_t band[ROWS * ROW_BYTES / 4];
             yb_frame_t frame;
+            uint8_t band[ROWS * ROW_BYTES];
         } drawing;
         yb_load_t load;
     } work;
@@ -41,7 +41,8 @@ static void place(yb_view_t *view, uint32_t *series)
     yb_view_init(view, &memory.map);
     if (draw_lot(series, 2) == 0) {
         uint16_t elevation = (uint16_t)(YB_DEGREES(5) + draw_lot(series, YB_DEGREES(80)));
-        yb_view_orbit(view, &memory.map, azimuth, elevation, (uint16_t)(150 + draw_lot(series, 400)));
+        yb_view_orbit(view, &memory.map, azimuth, elevation,
+                      (uint16_t)(150 + draw_lot(series, 400)));
         return;
     }
     uint16_t x = draw_lot(series, memory.map.east_q8);
@@ -53,20 +54,16 @@ static void place(yb_view_t *view, uint32_t *series)
 static void draw(uint32_t camera, const yb_view_t *view)
 {
     static const yb_screen_t screen = {WIDTH, HEIGHT, YB_GREY4};
-    const size_t used = yb_map_used(&memory.map);
-    const size_t rows = (sizeof(yb_map_t) - used) / ROW_BYTES + ROWS;
-    yb_band_t band = {.rows = (uint16_t)(rows < HEIGHT ? rows : HEIGHT),
-                      .depth = (uint16_t *)(void *)((uint8_t *)&memory + used),
-                      .pitch = WIDTH / 2};
-    band.pixels = (uint8_t *)&band.depth[WIDTH * (size_t)band.rows];
+    yb_band_t band;
+    yb_frame_t *frame = yb_frame_place(&memory.map, sizeof memory, &screen, &band);
     report_line("region", "begin", "", camera);
     yb_mark_begin();
-    yb_frame_begin(&memory.work.drawing.frame, &memory.map, view, &screen);
+    yb_frame_begin(frame, &memory.map, view, &screen);
     yb_mark_end();
     for (; band.y < HEIGHT; band.y = (uint16_t)(band.y + band.rows)) {
         report_line("region", "band", "", camera * HEIGHT + band.y);
         yb_mark_begin();
-        yb_frame_band(&memory.work.drawing.frame, &band);
+        yb_frame_band(frame, &band);
         yb_mark_end();
     }
 }

@@ -165,17 +165,8 @@ typedef struct {
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
-    yb_vertex_t vertex[YB_MAX_VERTICES]; /* the last member: see yb_map_used */
+    yb_vertex_t vertex[YB_MAX_VERTICES]; /* last, for yb_frame_place */
 } yb_map_t;
-
-/* Bytes of a map's struct, from its beginning, that its mesh takes up: a multiple of 4. What lies
- * behind them, 12 bytes for each vertex it has less than YB_MAX_VERTICES, serves for anything else
- * until another map is loaded there: for a taller band, if the band's memory follows the map's.
- */
-static inline size_t yb_map_used(const yb_map_t *map)
-{
-    return offsetof(yb_map_t, vertex) + map->vertex_count * sizeof map->vertex[0];
-}
 
 /* One contour of a code, as decoded. */
 typedef struct {
@@ -570,10 +561,19 @@ typedef struct {
     uint8_t row_shift;              /* rows are binned by so many bits: at most 16 bins */
     uint8_t rows[YB_MAX_TRIANGLES]; /* of a base triangle: first and last bin, a nibble each */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
-    yb_seen_t seen[YB_MAX_VERTICES];
     yb_point_t root[3];
     yb_level_t level[YB_MAX_LEVELS];
+    yb_seen_t seen[YB_MAX_VERTICES]; /* last, for yb_frame_place */
 } yb_frame_t;
+
+/* One piece of memory for all: `bytes` bytes, a loaded map at the beginning. In what that does not
+ * need this places a frame of it, and a band from the screen's top with as many rows as there is
+ * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
+ * 100 vertices leaves 2.8 KB. NULL: there is not room for one row, as sizeof(yb_map_t) +
+ * sizeof(yb_frame_t) and a row's depths and pixels always are. Both are the caller's until another
+ * map is loaded here.
+ */
+yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band);
 
 /* Prepares a frame: turns every vertex into the view once and finds the rows of each triangle.
  * map must stay as it is until the last band is drawn. Never fails.
