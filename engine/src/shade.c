@@ -260,25 +260,29 @@ static uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int3
     return colour_pixel(frame, hue, shade, near);
 }
 
+/* The shore, where a triangle reaches into the water. */
+static bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t above,
+                      raster_cut_t *cut)
+{
+    static const normal_t level = {0, 0, 1 << 12};
+    const int32_t near = nearest_of(p);
+    const int32_t flat = shadowed(frame, p, lit(frame, p[0], &level));
+    cut->interval = 0;
+    cut->zero = (int32_t)1 << 15;
+    cut->below = water_pixel(frame, flat, near);
+    cut->above = above;
+    cut->line = line_pixel(frame, HUE_SHORE, SHADES - 1, near);
+    return cut_values(p, frame->view.water_q8 - cut->zero, cut);
+}
+
 bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
                raster_cut_t *cut)
 {
     const yb_view_t *view = &frame->view;
     int32_t low = fix_min(p[0]->z_q8, fix_min(p[1]->z_q8, p[2]->z_q8));
     int32_t high = fix_max(p[0]->z_q8, fix_max(p[1]->z_q8, p[2]->z_q8));
-    int32_t near = nearest_of(p);
-    cut->below = cut->above = shade.pixel;
-    if (low < view->water_q8) {
-        if (high <= view->water_q8)
-            return false;
-        static const normal_t level = {0, 0, 1 << 12};
-        const int32_t flat = shadowed(frame, p, lit(frame, p[0], &level));
-        cut->interval = 0;
-        cut->zero = (int32_t)1 << 15;
-        cut->below = water_pixel(frame, flat, near);
-        cut->line = line_pixel(frame, HUE_SHORE, SHADES - 1, near);
-        return cut_values(p, view->water_q8 - cut->zero, cut);
-    }
+    if (low < view->water_q8)
+        return high > view->water_q8 && cut_shore(frame, p, shade.pixel, cut);
     if (frame->contour_inverse == 0)
         return false;
     /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. */
@@ -296,7 +300,8 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t sh
         return false;
     cut->interval = (int32_t)interval;
     cut->zero = 0;
-    cut->line = line_pixel(frame, HUE_LINE, shade.light, near);
+    cut->below = cut->above = shade.pixel;
+    cut->line = line_pixel(frame, HUE_LINE, shade.light, nearest_of(p));
     return cut_values(p, frame->contour_low + (int32_t)line, cut);
 }
 

@@ -11,31 +11,6 @@ enum {
     HEIGHT_BITS = 8   /* of the highest place, above the lowest */
 };
 
-static inline int32_t lit_at(const yb_shadow_t *shadow, int32_t cell)
-{
-    return shadow->lit[cell >> 3] >> (cell & 7) & 1;
-}
-
-int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
-{
-    int shift = shadow_cell_shift(shadow);
-    /* From the middle of a cell to the middle of the next, in eighths. */
-    int32_t x = (x_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3);
-    int32_t y = (y_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3);
-    int32_t most_i = shadow->columns - 1;
-    int32_t most_j = shadow->rows - 1;
-    int32_t i = fix_clamp(x >> 3, 0, most_i);
-    int32_t next_i = fix_clamp((x >> 3) + 1, 0, most_i);
-    int32_t row = fix_clamp(y >> 3, 0, most_j) * shadow->side;
-    int32_t next_row = fix_clamp((y >> 3) + 1, 0, most_j) * shadow->side;
-    int32_t east = x & 7;
-    int32_t north = y & 7;
-    int32_t south_row = lit_at(shadow, row + i) * (8 - east) + lit_at(shadow, row + next_i) * east;
-    int32_t north_row =
-        lit_at(shadow, next_row + i) * (8 - east) + lit_at(shadow, next_row + next_i) * east;
-    return south_row * (8 - north) + north_row * north;
-}
-
 /* --- Heights ---------------------------------------------------------------------------------- */
 
 typedef struct {
