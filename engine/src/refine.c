@@ -97,6 +97,25 @@ static inline uint32_t mean2(uint32_t a, uint32_t b)
     return (a & b) + ((a ^ b) >> 1 & 0x7fff7fff);
 }
 
+/* The sides of the view that a place on the screen is beyond: of most, none. */
+static inline uint8_t out_of(const refine_view_t *view, int32_t x_q4, int32_t y_q4)
+{
+    int32_t x = x_q4 - view->left_q4;
+    int32_t y = y_q4 - view->top_q4;
+    int out = 0;
+    if ((uint32_t)y >= view->high_q4)
+        out = y < 0 ? REFINE_ABOVE : REFINE_BELOW;
+    if ((uint32_t)x >= view->wide_q4)
+        out |= x < 0 ? REFINE_LEFT : REFINE_RIGHT;
+    return (uint8_t)out;
+}
+
+/* A point that has been looked at. */
+static inline void set_out(const refine_view_t *view, yb_spot_t *spot)
+{
+    spot->out = spot->near == 0 ? REFINE_NOWHERE : out_of(view, spot->x_q4, spot->y_q4);
+}
+
 /* Between the ends' spots, and up by the rise: half way, or as the eye sees it where one end is
  * much nearer. False: the rise changes the depth too much for that, or it comes to lie more than a
  * screen size off.
@@ -105,12 +124,13 @@ static inline uint32_t mean2(uint32_t a, uint32_t b)
  * farther end, at most a half, by a table's reciprocal of 15 bits of the sum. The way on the screen
  * is below 3 * 16 * YB_MAX_SIDE + 80 < 2^18, and times 2^13 below 2^31.
  */
-static inline bool see_middle(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                              yb_edge_t edge, int32_t rise, yb_spot_t *middle)
+static inline bool see_middle(const yb_frame_t *frame, const refine_view_t *view,
+                              const yb_point_t *a, const yb_point_t *b, yb_edge_t edge,
+                              int32_t rise, yb_spot_t *middle)
 {
     const yb_spot_t *far = &a->spot;
     const yb_spot_t *close = &b->spot;
-    int32_t near = fix_middle(far->near, close->near);
+    int32_t near = ((int32_t)far->near + close->near) >> 1;
     int32_t x = ((int32_t)far->x_q4 + close->x_q4) >> 1;
     int32_t y = ((int32_t)far->y_q4 + close->y_q4) >> 1;
     if (edge >= REFINE_AGAIN && far->near != close->near) {
@@ -127,27 +147,18 @@ static inline bool see_middle(const yb_frame_t *frame, const yb_point_t *a, cons
         y = far->y_q4 + (((int32_t)close->y_q4 - far->y_q4) * way_q14 >> 14);
     }
     int32_t turn = rise * near; /* below 2^30 */
-    y -= (turn >> 10) * frame->lift >> frame->lift_shift;
-    uint32_t high = frame->screen.height * (uint32_t)16;
-    if (fix_abs(turn) > frame->most_bend || (uint32_t)y + high > 3 * high)
+    if (fix_abs(turn) > frame->most_bend)
         return false;
-    *middle = (yb_spot_t){(yb_side_t)x, (yb_side_t)y, (uint16_t)near, 0};
+    y -= (turn >> 10) * frame->lift >> frame->lift_shift;
+    const uint8_t out = out_of(view, x, y);
+    uint32_t high = frame->screen.height * (uint32_t)16;
+    if (out != 0 && (uint32_t)y + high > 3 * high)
+        return false;
+    middle->x_q4 = (yb_side_t)x;
+    middle->y_q4 = (yb_side_t)y;
+    middle->near = (uint16_t)near;
+    middle->out = out;
     return true;
-}
-
-/* The sides of the view that a point is beyond: of most, none. */
-static inline uint8_t out_of(const refine_view_t *view, const yb_spot_t *spot)
-{
-    int32_t x = spot->x_q4 - view->left_q4;
-    int32_t y = spot->y_q4 - view->top_q4;
-    if (spot->near == 0)
-        return REFINE_NOWHERE;
-    int out = 0;
-    if ((uint32_t)y >= view->high_q4)
-        out = y < 0 ? REFINE_ABOVE : REFINE_BELOW;
-    if ((uint32_t)x >= view->wide_q4)
-        out |= x < 0 ? REFINE_LEFT : REFINE_RIGHT;
-    return (uint8_t)out;
 }
 
 void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
@@ -165,10 +176,11 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
     middle->z_q8 = z;
     middle->top_q8 = fix_max(z, frame->view.water_q8);
     int32_t rise = middle->top_q8 - ((a->top_q8 + b->top_q8) >> 1);
-    if (fix_min(a->spot.near, b->spot.near) == 0 || fix_abs(rise) >= 1 << 14 ||
-        !see_middle(frame, a, b, edge, rise, &middle->spot))
-        camera_see(frame, middle);
-    middle->spot.out = out_of(view, &middle->spot);
+    if (a->spot.near != 0 && b->spot.near != 0 && fix_abs(rise) < 1 << 14 &&
+        see_middle(frame, view, a, b, edge, rise, &middle->spot))
+        return;
+    camera_see(frame, middle);
+    set_out(view, &middle->spot);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
@@ -191,7 +203,7 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
 {
     for (int i = 0; i < 3; i++) {
         camera_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
-        frame->root[i].spot.out = out_of(view, &frame->root[i].spot);
+        set_out(view, &frame->root[i].spot);
         part->point[i] = &frame->root[i];
     }
     part->edge[0] = refine_edge(frame, &frame->root[0], &frame->root[1]);
