@@ -31,7 +31,7 @@ static const uint16_t reciprocal_table[65] YB_ROM = {
     20361, 20165, 19973, 19784, 19600, 19418, 19240, 19065, 18893, 18725, 18559, 18396, 18236,
     18079, 17924, 17772, 17623, 17476, 17332, 17190, 17050, 16913, 16777, 16644, 16513, 16384};
 
-#define INVERSE(a) ((uint32_t)1 << 21) / (a)
+#define INVERSE(a) ((uint32_t)1 << 20) / (a)
 #define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
 #define INVERSES_16(a) INVERSES_4(a), INVERSES_4((a) + 4), INVERSES_4((a) + 8), INVERSES_4((a) + 12)
 #define INVERSES_64(a)                                                                             \

@@ -84,7 +84,7 @@ uint32_t fix_exp2_q11(int32_t e_q11);
 /* 2^29 / a for 2^14 <= a < 2^15, within 3: above 2^14, at most 2^15. */
 int32_t fix_reciprocal(int32_t a);
 
-/* 2^21 / a, rounded down, for 0 < a < 256. */
+/* 2^20 / a, rounded down, for 0 < a < 256. */
 extern const uint32_t fix_inverse_table[256] YB_ROM;
 static inline uint32_t fix_inverse(int32_t a)
 {

@@ -26,8 +26,8 @@ typedef struct {
 } raster_cut_t;
 
 enum {
-    RASTER_WIDE_Q4 = 320, /* from side to side of a small triangle, at most, … */
-    RASTER_HIGH_Q4 = 255  /* … and from top to bottom */
+    RASTER_WIDE_Q4 = 320, /* from the top of a small triangle to either side, at most, … */
+    RASTER_HIGH_Q4 = 255  /* … and to the bottom */
 };
 
 typedef struct {
@@ -66,9 +66,9 @@ typedef struct {
     int32_t top, bottom;
 } raster_shape_t;
 
-static inline bool raster_is_small(int32_t dx)
+static inline bool raster_is_within(int32_t dx, int32_t most)
 {
-    return (uint32_t)(dx + RASTER_WIDE_Q4) <= 2 * RASTER_WIDE_Q4;
+    return (uint32_t)(dx + most) <= 2 * (uint32_t)most;
 }
 
 /* Looks at a triangle, counter-clockwise from the front, whose corners have spots. */
@@ -103,8 +103,8 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
     shape->p[0] = a;
     shape->p[1] = b;
     shape->p[2] = c;
-    return low - high <= RASTER_HIGH_Q4 && raster_is_small(bx) && raster_is_small(cx) &&
-                   raster_is_small(cx - bx)
+    return low - high <= RASTER_HIGH_Q4 && raster_is_within(bx, RASTER_WIDE_Q4) &&
+                   raster_is_within(cx, RASTER_WIDE_Q4)
                ? RASTER_SMALL
                : RASTER_FRONT;
 }

@@ -150,14 +150,13 @@ static inline bool see_middle(const yb_frame_t *frame, const refine_view_t *view
     if (fix_abs(turn) > frame->most_bend)
         return false;
     y -= (turn >> 10) * frame->lift >> frame->lift_shift;
-    const uint8_t out = out_of(view, x, y);
     uint32_t high = frame->screen.height * (uint32_t)16;
-    if (out != 0 && (uint32_t)y + high > 3 * high)
+    if ((uint32_t)y + high > 3 * high)
         return false;
     middle->x_q4 = (yb_side_t)x;
     middle->y_q4 = (yb_side_t)y;
     middle->near = (uint16_t)near;
-    middle->out = out;
+    middle->out = out_of(view, x, y);
     return true;
 }
 
@@ -381,7 +380,10 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
     const shade_t shade = shade_ground(frame, p);
     raster_cut_t cut;
     const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
-    raster_fill(raster, &shape, look, shade.pixel, cuts ? &cut : NULL);
+    if (look == RASTER_SMALL && (some & (REFINE_LEFT | REFINE_RIGHT)) == 0)
+        raster_level(raster, &shape, shade.pixel, cuts ? &cut : NULL);
+    else
+        raster_plane(raster, &shape, look, shade.pixel, cuts ? &cut : NULL);
 }
 
 /* A triangle whose edges are split once or not at all: refine_split, and its parts in the order of

@@ -46,7 +46,7 @@ static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, ui
 
 /* A row's whole pixels lie this far up in where a side crosses it. */
 enum {
-    ROWS_FRACTION = 21, /* of a sixteenth of a pixel */
+    ROWS_FRACTION = 20, /* of a sixteenth of a pixel */
     ROWS_PIXEL = ROWS_FRACTION + 4
 };
 
