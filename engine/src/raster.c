@@ -121,8 +121,8 @@ static inline __attribute__((always_inline)) void draw_level(const raster_t *ras
     const int32_t right_end = raster_pixel(c->y_q4);
     const int32_t base = a->x_q4 >> 7 << 3; /* whole bytes of pixels */
     const int32_t centre_q4 = base * 16 - 8;
-    side_t left = y < left_end ? side_of(a, b, centre_q4, y) : side_of(b, c, centre_q4, y);
-    side_t right = y < right_end ? side_of(a, c, centre_q4, y) : side_of(c, b, centre_q4, y);
+    side_t left = side_of(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
+    side_t right = side_of(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
     const size_t width = raster->screen->width;
     const size_t pitch = raster->band->pitch;
     uint16_t *depth = raster->band->depth + (size_t)(y - raster->first_row) * width;
