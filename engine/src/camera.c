@@ -232,7 +232,7 @@ static void find_lengths(yb_frame_t *frame, const pose_t *pose)
      * meet no pixel's centre. Made for as many on 128 and on 320 pixels. */
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
-        edge_q4 = (uint32_t)fix_max(9 * width / 8 - 22, (width + 1) >> 1);
+        edge_q4 = (uint32_t)fix_max(28 * width / 25 - 20, (width + 1) >> 1);
     uint64_t edge = (uint64_t)edge_q4 * 65535;
     uint64_t longest =
         (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
