@@ -23,32 +23,19 @@ static const uint16_t sine_table[65] YB_ROM = {
     13395, 13623, 13842, 14053, 14256, 14449, 14635, 14811, 14978, 15137, 15286, 15426, 15557,
     15679, 15791, 15893, 15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384};
 
-/* round(2^21 / (64 + i)) */
-static const uint16_t reciprocal_table[65] YB_ROM = {
-    32768, 32264, 31775, 31301, 30840, 30394, 29959, 29537, 29127, 28728, 28340, 27962, 27594,
-    27236, 26887, 26546, 26214, 25891, 25575, 25267, 24966, 24672, 24385, 24105, 23831, 23564,
-    23302, 23046, 22795, 22550, 22310, 22075, 21845, 21620, 21400, 21183, 20972, 20764, 20560,
-    20361, 20165, 19973, 19784, 19600, 19418, 19240, 19065, 18893, 18725, 18559, 18396, 18236,
-    18079, 17924, 17772, 17623, 17476, 17332, 17190, 17050, 16913, 16777, 16644, 16513, 16384};
-
-#define INVERSE(a) ((uint32_t)1 << 20) / (a)
+#define INVERSE(a) (((uint32_t)1 << 20) / (a))
 #define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
 #define INVERSES_16(a) INVERSES_4(a), INVERSES_4((a) + 4), INVERSES_4((a) + 8), INVERSES_4((a) + 12)
 #define INVERSES_64(a)                                                                             \
     INVERSES_16(a), INVERSES_16((a) + 16), INVERSES_16((a) + 32), INVERSES_16((a) + 48)
-const uint32_t fix_inverse_table[256] YB_ROM = {0,
-                                                INVERSE(1),
-                                                INVERSE(2),
-                                                INVERSE(3),
-                                                INVERSES_4(4),
-                                                INVERSES_4(8),
-                                                INVERSES_4(12),
-                                                INVERSES_16(16),
-                                                INVERSES_16(32),
-                                                INVERSES_16(48),
-                                                INVERSES_64(64),
-                                                INVERSES_64(128),
-                                                INVERSES_64(192)};
+
+/* clang-format off */
+const uint32_t fix_inverses[256] YB_ROM = {
+    0, INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
+    INVERSES_16(16), INVERSES_16(32), INVERSES_16(48),
+    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)
+};
+/* clang-format on */
 
 int32_t fix_log2_q11(uint64_t a)
 {
@@ -97,10 +84,9 @@ int32_t fix_scale(int32_t a, int32_t b, int32_t c)
 int32_t fix_reciprocal(int32_t a)
 {
     /* The top 6 bits after the leading one look up, the other 8 interpolate: the chord lies up to
-     * h^2/8 f'' = 2^13 2^-12 = 2 above the curve. */
-    const uint16_t *at = &reciprocal_table[(a >> 8) - 64];
-    int32_t low = yb_rom_u16(&at[0]);
-    return low - (((low - yb_rom_u16(&at[1])) * (a & 255)) >> 8);
+     * h^2/8 f'' = 2^13 2^-12 = 2 above the curve, and the table up to 2 below. */
+    int32_t low = 2 * fix_inverse(a >> 8);
+    return low - (((low - 2 * fix_inverse((a >> 8) + 1)) * (a & 255)) >> 8);
 }
 
 uint32_t fix_sqrt(uint64_t a)

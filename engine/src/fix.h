@@ -81,15 +81,15 @@ int32_t fix_log2_q11(uint64_t a);
 /* 2^(e/2048), rounded, at most UINT32_MAX; relative error below 2^-11 where the result is large. */
 uint32_t fix_exp2_q11(int32_t e_q11);
 
-/* 2^29 / a for 2^14 <= a < 2^15, within 3: above 2^14, at most 2^15. */
-int32_t fix_reciprocal(int32_t a);
-
 /* 2^20 / a, rounded down, for 0 < a < 256. */
-extern const uint32_t fix_inverse_table[256] YB_ROM;
-static inline uint32_t fix_inverse(int32_t a)
+extern const uint32_t fix_inverses[256] YB_ROM;
+static inline int32_t fix_inverse(int32_t a)
 {
-    return yb_rom_u32(&fix_inverse_table[a]);
+    return (int32_t)yb_rom_u32(&fix_inverses[a]);
 }
+
+/* 2^29 / a for 2^14 <= a < 2^15, within 4: at least 2^14, at most 2^15. */
+int32_t fix_reciprocal(int32_t a);
 
 /* Whole square root, rounded down. */
 uint32_t fix_sqrt(uint64_t a);

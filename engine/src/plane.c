@@ -135,8 +135,8 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     bool cuts = cut != NULL && rows_start_cut(&cutter, cut, shape, y);
     const int32_t left_end = raster_pixel(p[1]->y_q4);
     const int32_t right_end = raster_pixel(p[2]->y_q4);
-    long_side_t left = y < left_end ? long_side(p[0], p[1], y) : long_side(p[1], p[2], y);
-    long_side_t right = y < right_end ? long_side(p[0], p[2], y) : long_side(p[2], p[1], y);
+    long_side_t left = long_side(p[y < left_end ? 0 : 1], p[y < left_end ? 1 : 2], y);
+    long_side_t right = long_side(p[y < right_end ? 0 : 2], p[y < right_end ? 2 : 1], y);
     for (;;) {
         int32_t x = fix_max((int32_t)(left.at >> ROWS_PIXEL), 0);
         int32_t end = fix_min((int32_t)(right.at >> ROWS_PIXEL), width);

@@ -100,8 +100,8 @@ static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, i
     }
 }
 
-/* Draws a small triangle. For each format, and for lines, a copy of its own: what it branches on
- * would be a fifth of all it does.
+/* Draws a small triangle. For each format, and for lines, a copy of its own: branching on that
+ * would be a seventh of what it does.
  */
 static inline __attribute__((always_inline)) void draw_level(const raster_t *raster,
                                                              const raster_shape_t *shape,
@@ -133,8 +133,8 @@ static inline __attribute__((always_inline)) void draw_level(const raster_t *ras
     }
     for (;;) {
         if (cutter != NULL)
-            draw_cut(raster, depth, row, y, base + crossing_of(&left), base + crossing_of(&right), &plane,
-                     cutter);
+            draw_cut(raster, depth, row, y, base + crossing_of(&left), base + crossing_of(&right),
+                     &plane, cutter);
         else
             fill_row(format, depth, row, crossing_of(&left), crossing_of(&right),
                      (uint16_t)(plane.at_q14 >> 14),

@@ -50,13 +50,13 @@ enum {
     ROWS_PIXEL = ROWS_FRACTION + 4
 };
 
-/* A side goes down from one corner to another: how far right in one sixteenth of a row. Of sides as
- * those of small triangles without a division. Both triangles at it come to the same pixels: where
+/* How far right a side of a small triangle goes in a sixteenth of a row. A side is a function of
+ * its two corners, whichever way it is drawn: both triangles at it come to the same pixels, where
  * the one ends and the other begins.
  */
 static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
 {
-    return dx * (int32_t)fix_inverse(dy);
+    return dx * fix_inverse(dy);
 }
 
 /* --- Values ----------------------------------------------------------------------------------- */
@@ -88,7 +88,7 @@ bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shap
                     int32_t y);
 
 /* The pixels from x up to end of row y, with lines, where `plane`, the depth, is nearer than what
- * is there. Valuesare below 2^16, and the interval is: within 2^30.
+ * is there. Values are below 2^16, and the interval is: within 2^30.
  */
 static inline void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t y,
                             int32_t x, int32_t end, const plane_t *plane, const cutter_t *cutter)

@@ -26,7 +26,8 @@ static inline uint32_t shadow_pair(const yb_shadow_t *shadow, int32_t cell, int3
 static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
 {
     int shift = shadow_cell_shift(shadow);
-    /* From the middle of a cell to the middle of the next, in eighths; from the grid's rim on, none.
+    /* From the middle of a cell to the middle of the next, in eighths; from the grid's rim on,
+     * none.
      */
     int32_t x = fix_max((x_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3), 0);
     int32_t y = fix_max((y_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3), 0);

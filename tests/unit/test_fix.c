@@ -157,6 +157,18 @@ static void sine_and_cosine(void **state)
     assert_int_equal(yb_cos_q14(0x8000), -16384);
 }
 
+static void inverses(void **state)
+{
+    (void)state;
+    for (int32_t a = 1; a < 256; a++)
+        assert_int_equal(fix_inverse(a), (1 << 20) / a);
+    for (int32_t a = 1 << 14; a < 1 << 15; a++) {
+        const int32_t inverse = fix_reciprocal(a);
+        CHECK(fabs(inverse - exp2(29) / a) < 4, "2^29 / %d is not %d", a, inverse);
+        assert_in_range(inverse, 1 << 14, 1 << 15);
+    }
+}
+
 static void degrees(void **state)
 {
     (void)state;
@@ -176,6 +188,7 @@ int main(void)
         cmocka_unit_test(exp2_is_within_its_bound),
         cmocka_unit_test(square_root_is_exact),
         cmocka_unit_test(sine_and_cosine),
+        cmocka_unit_test(inverses),
         cmocka_unit_test(degrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -87,6 +87,60 @@ static void any_bands_give_the_same_picture(void **state)
     }
 }
 
+/* A map, its frame and a band in one piece, of any length: the frame is as it is elsewhere, the map
+ * stays as it is, and nothing behind the piece is touched.
+ */
+static void one_piece_of_memory_is_enough(void **state)
+{
+    (void)state;
+    enum {
+        MOST = sizeof(yb_map_t) + sizeof(yb_frame_t) + WIDTH * 4 * HEIGHT,
+        GUARD = 64
+    };
+    static union {
+        yb_map_t map;
+        uint8_t byte[MOST + GUARD];
+    } piece;
+    rng_t rng = {73};
+    int least = HEIGHT;
+    for (int round = 0; round < 200; round++) {
+        yb_view_t view;
+        const yb_screen_t *screen = random_scene(&rng, round, &view);
+        const size_t pitch = yb_screen_pitch(screen);
+        const size_t row = pitch + screen->width * sizeof *depth;
+        yb_frame_begin(&frame, &map, &view, screen);
+        draw(whole, 0, screen->height);
+        memset(piece.byte, 0xa5, sizeof piece.byte);
+        piece.map = map;
+        const size_t bytes = sizeof(yb_map_t) + sizeof(yb_frame_t) +
+                             (size_t)rng_range(&rng, 1, round % 2 == 0 ? 20 : HEIGHT) * row;
+        yb_band_t band;
+        yb_frame_t *placed = yb_frame_place(&piece.map, bytes, screen, &band);
+        assert_non_null(placed);
+        assert_true(band.y == 0 && band.rows >= 1 && band.rows <= screen->height);
+        least = band.rows < least ? band.rows : least;
+        yb_frame_begin(placed, &piece.map, &view, screen);
+        for (int y = 0; y < screen->height; y += band.rows) {
+            band.y = (uint16_t)y;
+            yb_frame_band(placed, &band);
+            const int rows = screen->height - y < band.rows ? screen->height - y : band.rows;
+            assert_memory_equal(band.pixels, whole + (size_t)y * pitch, (size_t)rows * pitch);
+        }
+        assert_memory_equal(piece.map.vertex, map.vertex, map.vertex_count * sizeof *map.vertex);
+        assert_memory_equal(piece.map.triangle, map.triangle, sizeof map.triangle);
+        for (size_t i = bytes; i < sizeof piece.byte; i++)
+            CHECK(piece.byte[i] == 0xa5, "round %d: byte %zu of %zu was written", round, i, bytes);
+        /* Not one row more would have fitted, nor does one in less than is needed for it. */
+        const size_t spare = bytes - (size_t)(band.pixels - piece.byte) - band.rows * pitch;
+        assert_true(spare < row || band.rows == screen->height);
+        const size_t used = (size_t)(band.pixels - piece.byte) - band.rows * (row - pitch);
+        assert_null(yb_frame_place(&piece.map, used + row - 1, screen, &band));
+        assert_non_null(yb_frame_place(&piece.map, used + row, screen, &band));
+        assert_int_equal(band.rows, 1);
+    }
+    print_message("bands of %d rows and more\n", least);
+}
+
 static void a_band_leaves_the_rest_alone(void **state)
 {
     (void)state;
@@ -550,6 +604,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_bands_give_the_same_picture),
+        cmocka_unit_test(one_piece_of_memory_is_enough),
         cmocka_unit_test(a_band_leaves_the_rest_alone),
         cmocka_unit_test(culling_changes_no_pixel),
         cmocka_unit_test(there_are_no_cracks),

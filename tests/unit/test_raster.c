@@ -355,7 +355,7 @@ static void huge_triangles_fit(void **state)
     for (int round = 0; round < 2000; round++) {
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
-            raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
+        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
         raster_clear(&raster);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
