@@ -72,9 +72,21 @@ static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int
                       const plane_t *plane, uint16_t pixel)
 {
     uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
+    if (raster->screen->format == YB_RGB565) { /* large screens have more large triangles */
+        for (; x < end; x++, near += (uint32_t)plane->along_x) {
+            const uint16_t nearer = depth_of(near);
+            if (nearer > depth[x]) {
+                depth[x] = nearer;
+                row[2 * x] = (uint8_t)(pixel >> 8);
+                row[2 * x + 1] = (uint8_t)pixel;
+            }
+        }
+        return;
+    }
     for (; x < end; x++, near += (uint32_t)plane->along_x) {
-        if (depth_of(near) > depth[x]) {
-            depth[x] = depth_of(near);
+        const uint16_t nearer = depth_of(near);
+        if (nearer > depth[x]) {
+            depth[x] = nearer;
             put_pixel(raster, row, x, pixel);
         }
     }
