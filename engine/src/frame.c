@@ -8,16 +8,6 @@
 #include "refine.h"
 #include "relief.h"
 
-/* May a base triangle touch the rows from first up to end? One that is not on the screen has its
- * last bin before the first.
- */
-static bool in_rows(const yb_frame_t *frame, yb_triangle_t triangle, int32_t first, int32_t end)
-{
-    int bins = frame->rows[triangle];
-    return bins >> 4 <= (end - 1) >> frame->row_shift && (bins & 15) >= first >> frame->row_shift &&
-           bins >> 4 <= (bins & 15);
-}
-
 /* Raises the threshold of refinement until the frame keeps to its bound. The count depends on the
  * view alone, so every band comes to the same threshold.
  */
@@ -25,10 +15,7 @@ static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
     while (frame->view.max_leaves > 0) {
         frame->stats.refined = 0;
-        for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
-            if (in_rows(frame, t, 0, frame->screen.height))
-                refine_draw(frame, whole, NULL, t);
-        }
+        refine_count(frame, whole);
         if (frame->stats.refined <= frame->view.max_leaves || frame->longest == UINT32_MAX)
             break;
         uint32_t more = (frame->longest >> 2) + (frame->longest >> 3) + 1;
@@ -139,10 +126,7 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     raster_clear(&raster);
     for (int32_t y = raster.first_row; y < raster.end_row; y++)
         raster_row(&raster, y, colour_sky(frame, y));
-    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
-        if (in_rows(frame, t, raster.first_row, raster.end_row))
-            refine_draw(frame, &view, &raster, t);
-    }
+    refine_draw(frame, &view, &raster);
     if (frame->view.walls)
         walls_draw(frame, &view, &raster);
 }
@@ -158,9 +142,6 @@ void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)
     yb_stats_t stats = frame->stats;
     refine_view_t view;
     refine_see(frame, 0, frame->screen.height, &view);
-    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++) {
-        if (in_rows(frame, t, 0, frame->screen.height))
-            refine_draw(frame, &view, &raster, t);
-    }
+    refine_draw(frame, &view, &raster);
     frame->stats = stats;
 }

@@ -84,10 +84,7 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
-    yb_edge_t edge = (yb_edge_t)fix_length(across, along);
-    if (looks_short(frame, a, b, edge))
-        return edge;
-    edge = refine_ask(frame, a, b, edge);
+    yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)fix_length(across, along));
     return edge < REFINE_ONCE ? edge : edge | (yb_edge_t)(relief_class(dx, dy) + 4) << 16;
 }
 
@@ -319,7 +316,7 @@ bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part)
 
 /* --- Drawing ---------------------------------------------------------------------------------- */
 
-/* What stays the same while a base triangle is drawn. */
+/* What stays the same while base triangles are drawn; with raster NULL leaves are only counted. */
 typedef struct {
     yb_frame_t *frame;
     const refine_view_t *view;
@@ -425,33 +422,61 @@ static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
     leaf(walk, m, b, n);
 }
 
-void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                 yb_triangle_t triangle)
+/* Refines a base triangle and draws what it becomes. */
+static void draw_root(walk_t *walk, yb_triangle_t triangle)
 {
-    const walk_t walk = {frame, view, raster};
+    yb_frame_t *frame = walk->frame;
     yb_level_t *top = frame->level;
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t part;
-    refine_root(frame, view, triangle, &part);
+    refine_root(frame, walk->view, triangle, &part);
     do {
-        if (raster == NULL && frame->stats.refined > frame->view.max_leaves)
+        if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
         while (refine_splits(&part)) {
-            if (refine_part_misses(frame, view, &part))
+            if (refine_part_misses(frame, walk->view, &part))
                 goto next;
             if (top > last) {
                 frame->stats.depth_limited++;
                 break;
             }
             if (refine_edges(&part) < 2 * REFINE_ONCE) {
-                draw_last(&walk, &part, top);
+                draw_last(walk, &part, top);
                 goto next;
             }
-            top = refine_split(frame, view, &part, top);
+            top = refine_split(frame, walk->view, &part, top);
         }
         frame->stats.refined++;
-        if (raster != NULL)
-            leaf(&walk, part.point[0], part.point[1], part.point[2]);
+        if (walk->raster != NULL)
+            leaf(walk, part.point[0], part.point[1], part.point[2]);
     next:;
     } while (refine_next(frame->level, &top, &part));
+}
+
+/* Those base triangles that may touch the rows from first up to end. One that is not on the screen
+ * has its last bin before the first.
+ */
+static void draw_roots(walk_t *walk, int32_t first_row, int32_t end_row)
+{
+    const yb_frame_t *frame = walk->frame;
+    const int first_bin = (int)(first_row >> frame->row_shift);
+    const int last_bin = (int)((end_row - 1) >> frame->row_shift);
+    const yb_triangle_t count = frame->map->triangle_count;
+    for (yb_triangle_t t = 0; t < count; t++) {
+        const int bins = frame->rows[t];
+        if (bins >> 4 <= last_bin && (bins & 15) >= first_bin && bins >> 4 <= (bins & 15))
+            draw_root(walk, t);
+    }
+}
+
+void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
+{
+    walk_t walk = {frame, view, raster};
+    draw_roots(&walk, raster->first_row, raster->end_row);
+}
+
+void refine_count(yb_frame_t *frame, const refine_view_t *whole)
+{
+    walk_t walk = {frame, whole, NULL};
+    draw_roots(&walk, 0, frame->screen.height);
 }

@@ -148,9 +148,12 @@ bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part);
 /* The bins of rows that a base triangle may touch: frame->rows. `whole` is all rows. */
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle);
 
-/* Refines a base triangle and draws what it becomes; with raster NULL it is only counted. */
-void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                 yb_triangle_t triangle);
+/* Refines the base triangles that may touch the rows of a raster, and draws what they become. */
+void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
+
+/* Counts the leaves of the whole screen in frame->stats.refined, up to more than the view's bound.
+ */
+void refine_count(yb_frame_t *frame, const refine_view_t *whole);
 
 /* Notes in frame->rim whether a base triangle has an edge on the frame. */
 void walls_bin(yb_frame_t *frame, yb_triangle_t triangle);
