@@ -149,16 +149,14 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
  * edge is of a class four lower and halved once less, and so is what is split inside the triangle:
  * a point moves by the noise of each class once. (relief_reach counts it twice.)
  */
-static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
+static inline int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
 {
     const yb_map_t *map = frame->map;
-    yb_edge_t often = 0;
-    yb_edge_t longest = 0;
+    const yb_edge_t often = refine_edges(part);
+    yb_edge_t longest = 0; /* or one that is left whole, and shorter */
     for (int i = 0; i < 3; i++) {
-        yb_edge_t edge = part->edge[i];
-        if (edge >= REFINE_ONCE && (edge & 0xff0000) > longest)
-            longest = edge & 0xff0000;
-        often |= edge;
+        const yb_edge_t class = part->edge[i] & 0xff0000;
+        longest = class > longest ? class : longest;
     }
     int class = refine_class(longest);
     int32_t stray = part->bulge + 16; /* rounding of 16 levels adds at most as many units */
@@ -172,9 +170,12 @@ static int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
 /* What of a triangle strays so far in height, when some of it may be in the water: what is above
  * may sink to it where the ground between dips under it.
  */
-static int32_t stray_in_water(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t stray)
+static inline int32_t stray_in_water(const yb_frame_t *frame, const yb_point_t *const p[3],
+                                     int32_t stray)
 {
     int32_t water = frame->view.water_q8;
+    if (water == YB_NO_WATER)
+        return stray;
     if (p[0]->z_q8 < water || p[1]->z_q8 < water || p[2]->z_q8 < water)
         stray = fix_max(stray, fix_max(p[0]->top_q8, fix_max(p[1]->top_q8, p[2]->top_q8)) - water);
     return stray;
@@ -229,7 +230,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
     if (beyond >= REFINE_NOWHERE)
         return refine_misses(frame, view, p, 3, refine_stray(frame, part));
     int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
-    int32_t stray = refine_stray(frame, part);
+    int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
     spare_t spare;
     if (!find_part_spare(frame, part, stray, near, &spare))
         return misses_planes(frame, view, p, 3, stray);
@@ -238,20 +239,32 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
-/* How far refinement can move a point of a base triangle, however often its edges are halved: as
- * limited_stray.
+/* How far refinement can move a point of a base triangle, as limited_stray: no edge is longer than
+ * its longest side, nor any point nearer than `near`, a 1/depth, so that none is halved more often
+ * than that side would be there. A refine_edge is at most 6.8 % longer than it should be, and this
+ * side at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
  */
-static int32_t whole_stray(const yb_map_t *map, const yb_point_t *const p[3])
+static int32_t whole_stray(const yb_frame_t *frame, const yb_point_t *const p[3], uint32_t near)
 {
+    const yb_map_t *map = frame->map;
     uint32_t square = 0;
+    uint32_t length = 0;
     for (int i = 0; i < 3; i++) {
         const yb_point_t *q = p[i == 2 ? 0 : i + 1];
-        uint32_t other =
-            relief_half_square(relief_dx(p[i]->place, q->place), relief_dy(p[i]->place, q->place));
+        int32_t dx = relief_dx(p[i]->place, q->place);
+        int32_t dy = relief_dy(p[i]->place, q->place);
+        uint32_t other = relief_half_square(dx, dy);
         square = other > square ? other : square;
+        length = (uint32_t)fix_max((int32_t)length, fix_length(dx, dy));
     }
-    const relief_bound_t bound = {0, relief_square_class(square)};
-    return refine_bulge(map, p) + 17 + (relief_reach(map, &bound, 0) >> 1);
+    int class = relief_square_class(square);
+    int often = 0;
+    for (uint32_t size = ((length + (length >> 3)) >> 1) * near; size > frame->longest; size >>= 1)
+        often++;
+    if (often == 0)
+        return 0;
+    const relief_bound_t bound = {0, class};
+    return refine_bulge(map, p) + 17 + (relief_reach(map, &bound, class + 4 - 4 * often) >> 1);
 }
 
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
@@ -260,12 +273,15 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     const yb_point_t *const p[3] = {&root[0], &root[1], &root[2]};
     for (int i = 0; i < 3; i++)
         camera_root(frame, frame->map->triangle[triangle][i], &root[i]);
-    int32_t stray = stray_in_water(frame, p, whole_stray(frame->map, p));
     int32_t last = frame->screen.height - 1;
     int32_t first = 0;
     box_t box;
     spare_t spare;
-    if (find_box(p, 3, &box) && find_spare(frame, stray, box.near, &spare)) {
+    const bool seen = find_box(p, 3, &box);
+    /* Nothing of what the box's spare is for comes nearer by more than an eighth. */
+    const uint32_t near = seen ? (uint32_t)fix_min(box.near + (box.near >> 3) + 1, 65535) : 65535;
+    int32_t stray = stray_in_water(frame, p, whole_stray(frame, p, near));
+    if (seen && find_spare(frame, stray, box.near, &spare)) {
         widen_box(&spare, &box);
         if (box_misses(whole, &box)) {
             first = last;
