@@ -81,13 +81,17 @@ uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t n
     if (frame->screen.format != YB_RGB565) /* there the sky is black */
         return (uint16_t)(shade * (256 - haze) >> 8);
     const uint8_t(*palette)[3] = hues[frame->view.palette];
-    uint32_t mixed[3];
-    for (int i = 0; i < 3; i++) {
-        mixed[i] = (uint32_t)(yb_rom_u8(&palette[hue][i]) * (shade + 1)) >> 4;
-        if (haze > 0)
-            mixed[i] = blend((int32_t)mixed[i], yb_rom_u8(&palette[HUE_HAZE][i]), haze);
+    const uint8_t *full = palette[hue];
+    const uint32_t share = (uint32_t)shade + 1; /* of 16 */
+    uint32_t red = yb_rom_u8(&full[0]) * share >> 4;
+    uint32_t green = yb_rom_u8(&full[1]) * share >> 4;
+    uint32_t blue = yb_rom_u8(&full[2]) * share >> 4;
+    if (haze > 0) {
+        red = blend((int32_t)red, yb_rom_u8(&palette[HUE_HAZE][0]), haze);
+        green = blend((int32_t)green, yb_rom_u8(&palette[HUE_HAZE][1]), haze);
+        blue = blend((int32_t)blue, yb_rom_u8(&palette[HUE_HAZE][2]), haze);
     }
-    return rgb565(mixed[0], mixed[1], mixed[2]);
+    return rgb565(red, green, blue);
 }
 
 uint16_t colour_sky(const yb_frame_t *frame, int32_t row)
