@@ -191,12 +191,12 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
  * more than a 64th, all midpoints are made from the spots of their ends: what they may be off from
  * where they should be does not matter, only the rounding of each level.
  */
-static bool find_part_spare(const yb_frame_t *frame, const yb_part_t *part, int32_t stray,
-                            int32_t near, spare_t *spare)
+static inline bool find_part_spare(const yb_frame_t *frame, int often, int32_t stray, int32_t near,
+                                   spare_t *spare)
 {
     if (stray >= 1 << 14 || stray * near > frame->most_bend)
         return find_spare(frame, stray, near, spare);
-    int32_t levels = fix_min((int32_t)(refine_edges(part) >> 24), 16) + 1;
+    int32_t levels = fix_min(often, 16) + 1;
     spare->x = levels;
     spare->y = (((stray * near >> 10) + levels) * frame->lift >> frame->lift_shift) + levels;
     return true;
@@ -232,7 +232,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
     int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
     int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
     spare_t spare;
-    if (!find_part_spare(frame, part, stray, near, &spare))
+    if (!find_part_spare(frame, (int)(refine_edges(part) >> 24), stray, near, &spare))
         return misses_planes(frame, view, p, 3, stray);
     return farther(view, p, beyond, &spare);
 }
@@ -244,7 +244,8 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
  * than that side would be there. A refine_edge is at most 6.8 % longer than it should be, and this
  * side at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
  */
-static int32_t whole_stray(const yb_frame_t *frame, const yb_point_t *const p[3], uint32_t near)
+static int32_t whole_stray(const yb_frame_t *frame, const yb_point_t *const p[3], uint32_t near,
+                           int *halvings)
 {
     const yb_map_t *map = frame->map;
     uint32_t square = 0;
@@ -261,6 +262,7 @@ static int32_t whole_stray(const yb_frame_t *frame, const yb_point_t *const p[3]
     int often = 0;
     for (uint32_t size = ((length + (length >> 3)) >> 1) * near; size > frame->longest; size >>= 1)
         often++;
+    *halvings = often;
     if (often == 0)
         return 0;
     const relief_bound_t bound = {0, class};
@@ -280,8 +282,9 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     const bool seen = find_box(p, 3, &box);
     /* Nothing of what the box's spare is for comes nearer by more than an eighth. */
     const uint32_t near = seen ? (uint32_t)fix_min(box.near + (box.near >> 3) + 1, 65535) : 65535;
-    int32_t stray = stray_in_water(frame, p, whole_stray(frame, p, near));
-    if (seen && find_spare(frame, stray, box.near, &spare)) {
+    int often;
+    int32_t stray = stray_in_water(frame, p, whole_stray(frame, p, near, &often));
+    if (seen && find_part_spare(frame, often, stray, box.near, &spare)) {
         widen_box(&spare, &box);
         if (box_misses(whole, &box)) {
             first = last;
