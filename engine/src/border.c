@@ -2,52 +2,52 @@
 #include "mesh.h"
 
 /* SPEC 1.5: which points of a contour may lie on the frame. */
-static yb_status_t check_contour(const yb_map_t *map, yb_contour_t *contour)
+static yb_status_t check_contour(const yb_load_t *load, yb_contour_t *contour)
 {
-    const yb_vertex_t *first = &map->vertex[contour->first];
+    const yb_vertex_t *first = vertex_of(load, contour->first);
     const yb_vertex_t *last = first + contour->count - 1;
-    contour->open = contour->count > 1 && on_frame(map, first) && on_frame(map, last);
+    contour->open = contour->count > 1 && on_frame(load, first) && on_frame(load, last);
     int inner_from = contour->open ? 1 : 0;
     for (int i = inner_from; i < contour->count - inner_from; i++) {
-        if (on_frame(map, first + i))
+        if (on_frame(load, first + i))
             return YB_ERR_CORRUPT;
     }
     if (contour->count != 2)
         return YB_OK;
     /* A straight line across: not along one side, where it would bound nothing. */
-    bool along = (first->x_q8 == last->x_q8 && (first->x_q8 == 0 || first->x_q8 == map->east_q8)) ||
-                 (first->y_q8 == last->y_q8 && (first->y_q8 == 0 || first->y_q8 == map->north_q8));
+    bool along = (first->x_q8 == last->x_q8 && (first->x_q8 == 0 || first->x_q8 == load->map->east_q8)) ||
+                 (first->y_q8 == last->y_q8 && (first->y_q8 == 0 || first->y_q8 == load->map->north_q8));
     return contour->open && !along ? YB_OK : YB_ERR_CORRUPT;
 }
 
 /* Way along the frame, counter-clockwise from the south-west corner, in q8 steps. */
-static uint32_t way_of(const yb_map_t *map, const yb_vertex_t *v)
+static uint32_t way_of(const yb_load_t *load, const yb_vertex_t *v)
 {
-    uint32_t east = map->east_q8;
-    uint32_t north = map->north_q8;
+    uint32_t east = load->map->east_q8;
+    uint32_t north = load->map->north_q8;
     if (v->y_q8 == 0)
         return v->x_q8;
-    if (v->x_q8 == map->east_q8)
+    if (v->x_q8 == load->map->east_q8)
         return east + v->y_q8;
-    if (v->y_q8 == map->north_q8)
+    if (v->y_q8 == load->map->north_q8)
         return east + north + (east - v->x_q8);
     return 2 * east + north + (north - v->y_q8);
 }
 
 /* The height at an unknown corner: between the nearest known heights along the frame, both ways. */
-static int32_t interpolate(const yb_map_t *map, const yb_load_t *load, yb_index_t corner)
+static int32_t interpolate(const yb_load_t *load, yb_index_t corner)
 {
-    uint32_t round = 2 * ((uint32_t)map->east_q8 + map->north_q8);
-    uint32_t way = way_of(map, &map->vertex[corner]);
+    uint32_t round = 2 * ((uint32_t)load->map->east_q8 + load->map->north_q8);
+    uint32_t way = way_of(load, &load->map->vertex[corner]);
     uint32_t ahead = round;
     uint32_t behind = round;
     int32_t height_ahead = load->frame_height;
     int32_t height_behind = load->frame_height;
-    for (int i = 0; i < map->vertex_count; i++) {
-        const yb_vertex_t *v = &map->vertex[i];
-        if (v->z_q8 == UNKNOWN_HEIGHT || !on_frame(map, v))
+    for (int i = 0; i < load->map->vertex_count; i++) {
+        const yb_vertex_t *v = &load->map->vertex[i];
+        if (v->z_q8 == UNKNOWN_HEIGHT || !on_frame(load, v))
             continue;
-        uint32_t d = way_of(map, v) + round - way;
+        uint32_t d = way_of(load, v) + round - way;
         d = d >= round ? d - round : d; /* never 0: the corner itself is unknown */
         if (d < ahead) {
             ahead = d;
@@ -66,45 +66,45 @@ static int32_t interpolate(const yb_map_t *map, const yb_load_t *load, yb_index_
 }
 
 /* Makes corner k a vertex, unless a line ends there. */
-static yb_status_t place_corner(yb_map_t *map, yb_load_t *load, int k)
+static yb_status_t place_corner(yb_load_t *load, int k)
 {
-    uint16_t x = k == 1 || k == 2 ? map->east_q8 : 0;
-    uint16_t y = k >= 2 ? map->north_q8 : 0;
+    uint16_t x = k == 1 || k == 2 ? load->map->east_q8 : 0;
+    uint16_t y = k >= 2 ? load->map->north_q8 : 0;
     for (int i = 0; i < load->point_count; i++) {
-        if (map->vertex[i].x_q8 == x && map->vertex[i].y_q8 == y) {
+        if (load->map->vertex[i].x_q8 == x && load->map->vertex[i].y_q8 == y) {
             load->corner[k] = (yb_index_t)i;
             return load->corner_height[k] == UNKNOWN_HEIGHT ? YB_OK : YB_ERR_CORRUPT;
         }
     }
-    if (map->vertex_count >= load->vertices_promised)
+    if (load->map->vertex_count >= load->vertices_promised)
         return YB_ERR_CORRUPT;
-    yb_vertex_t *v = &map->vertex[map->vertex_count];
+    yb_vertex_t *v = &load->map->vertex[load->map->vertex_count];
     v->x_q8 = x;
     v->y_q8 = y;
     v->z_q8 = load->corner_height[k];
-    load->corner[k] = (yb_index_t)map->vertex_count;
-    map->vertex_count++;
+    load->corner[k] = (yb_index_t)load->map->vertex_count;
+    load->map->vertex_count++;
     return YB_OK;
 }
 
-yb_status_t border_close(yb_map_t *map, yb_load_t *load)
+yb_status_t border_close(yb_load_t *load)
 {
     for (int i = 0; i < load->contour_count; i++) {
-        if (check_contour(map, &load->contour[i]) != YB_OK)
+        if (check_contour(load, &load->contour[i]) != YB_OK)
             return YB_ERR_CORRUPT;
     }
     for (int k = 0; k < 4; k++) {
-        if (place_corner(map, load, k) != YB_OK)
+        if (place_corner(load, k) != YB_OK)
             return YB_ERR_CORRUPT;
     }
     /* All from what the code says, none from another's interpolation: first compute, then store. */
     int32_t height[4];
     for (int k = 0; k < 4; k++) {
         yb_index_t corner = load->corner[k];
-        bool known = map->vertex[corner].z_q8 != UNKNOWN_HEIGHT;
-        height[k] = known ? map->vertex[corner].z_q8 : interpolate(map, load, corner);
+        bool known = load->map->vertex[corner].z_q8 != UNKNOWN_HEIGHT;
+        height[k] = known ? load->map->vertex[corner].z_q8 : interpolate(load, corner);
     }
     for (int k = 0; k < 4; k++)
-        map->vertex[load->corner[k]].z_q8 = height[k];
+        load->map->vertex[load->corner[k]].z_q8 = height[k];
     return YB_OK;
 }

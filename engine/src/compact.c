@@ -195,30 +195,30 @@ static uint16_t place_q8(const yb_load_t *load, int line)
     return (uint16_t)((uint32_t)(line * load->spacing) << 8);
 }
 
-static int take_vertices(yb_map_t *map, yb_load_t *load, int value)
+static int take_vertices(yb_load_t *load, int value)
 {
     uint32_t vertices = value < 8 ? 32 * ((uint32_t)value + 1) : (uint32_t)512 << (value - 8);
     vertices -= (value & 7) == 7 ? 1 : 0; /* 255 and 65535: what an index can count */
     if (vertices > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
     load->vertices_promised = (uint16_t)vertices;
-    map->east_q8 = place_q8(load, load->columns);
-    map->north_q8 = place_q8(load, load->rows);
+    load->map->east_q8 = place_q8(load, load->columns);
+    load->map->north_q8 = place_q8(load, load->rows);
     load->start_x = load->columns / 2;
     load->start_y = load->rows / 2;
     return LINE_COUNT;
 }
 
-static int take_header(yb_map_t *map, yb_load_t *load, int value)
+static int take_header(yb_load_t *load, int value)
 {
     switch ((enum field)load->state) {
     case CELL_EXPONENT:
-        map->cell = (uint16_t)value;
+        load->map->cell = (uint16_t)value;
         return CELL_MANTISSA;
     case CELL_MANTISSA:
         /* Exponent 0: 0 to 255 64ths of a metre; else a ninth bit stands before the mantissa. */
-        map->cell = (uint16_t)(map->cell == 0 ? value : (map->cell - 1) << 12 | 256 | value);
-        return map->cell == 0 ? YB_ERR_CORRUPT : (int)SPACING;
+        load->map->cell = (uint16_t)(load->map->cell == 0 ? value : (load->map->cell - 1) << 12 | 256 | value);
+        return load->map->cell == 0 ? YB_ERR_CORRUPT : (int)SPACING;
     case SPACING:
         load->spacing = (uint8_t)(value + 1);
         load->columns = load->rows = (uint8_t)(255 / load->spacing);
@@ -233,10 +233,10 @@ static int take_header(yb_map_t *map, yb_load_t *load, int value)
         *(load->narrow ? &load->columns : &load->rows) = (uint8_t)(value + 1);
         return UNIT_EXPONENT;
     case UNIT_EXPONENT:
-        map->unit = (uint16_t)((unsigned)value << 12);
+        load->map->unit = (uint16_t)((unsigned)value << 12);
         return UNIT_MANTISSA;
     case UNIT_MANTISSA:
-        map->unit = (uint16_t)(map->unit | 16 | value);
+        load->map->unit = (uint16_t)(load->map->unit | 16 | value);
         return COARSE;
     case COARSE:
         return value == 0 ? BASE : INTERVAL;
@@ -250,16 +250,16 @@ static int take_header(yb_map_t *map, yb_load_t *load, int value)
         load->base = value != 0 ? -load->base : load->base;
         return DIMENSION;
     case DIMENSION:
-        map->hurst_q8m1 = (uint8_t)(255 - 8 * value);
+        load->map->hurst_q8m1 = (uint8_t)(255 - 8 * value);
         return GAIN;
     case GAIN:
         load->gain = gain_of(value);
         return STRAIGHT;
     case STRAIGHT:
-        map->smooth = value == 0;
+        load->map->smooth = value == 0;
         return VERTICES;
     default:
-        return take_vertices(map, load, value);
+        return take_vertices(load, value);
     }
 }
 
@@ -276,11 +276,11 @@ static bool outside(const yb_load_t *load, int x, int y)
 /* Until the relief is complete a vertex's z is in units above the base; cut, so that sums of
  * however many differences below 2^18 fit.
  */
-static bool add_point(yb_map_t *map, yb_load_t *load, int32_t units)
+static bool add_point(yb_load_t *load, int32_t units)
 {
     if (load->point_count >= load->vertices_promised || outside(load, load->x, load->y))
         return false;
-    yb_vertex_t *point = &map->vertex[load->point_count];
+    yb_vertex_t *point = &load->map->vertex[load->point_count];
     point->x_q8 = place_q8(load, load->x);
     point->y_q8 = place_q8(load, load->y);
     point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
@@ -289,10 +289,10 @@ static bool add_point(yb_map_t *map, yb_load_t *load, int32_t units)
 }
 
 /* There are at most as many contours as points, so that there is room for one if for its point. */
-static bool begin_contour(yb_map_t *map, yb_load_t *load, int32_t units)
+static bool begin_contour(yb_load_t *load, int32_t units)
 {
     yb_index_t first = (yb_index_t)load->point_count;
-    if (!add_point(map, load, units))
+    if (!add_point(load, units))
         return false;
     yb_contour_t *contour = &load->contour[load->contour_count++];
     contour->first = first;
@@ -301,12 +301,12 @@ static bool begin_contour(yb_map_t *map, yb_load_t *load, int32_t units)
 }
 
 /* Height of the point nearest to the present place, of those known so far; 0 if none is. */
-static int32_t height_near(const yb_map_t *map, const yb_load_t *load)
+static int32_t height_near(const yb_load_t *load)
 {
     int32_t nearest = INT32_MAX;
     int32_t units = 0;
     for (int i = 0; i < load->point_count; i++) {
-        const yb_vertex_t *v = &map->vertex[i];
+        const yb_vertex_t *v = &load->map->vertex[i];
         int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
         int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
         int32_t d = dx * dx + dy * dy;
@@ -383,7 +383,7 @@ static int take_start(yb_load_t *load)
     return outside(load, load->x, load->y) ? YB_ERR_CORRUPT : (int)LINE_HEIGHT;
 }
 
-static int take_place(yb_map_t *map, yb_load_t *load, int rest)
+static int take_place(yb_load_t *load, int rest)
 {
     int n = load->length;
     int dx = 0;
@@ -401,10 +401,10 @@ static int take_place(yb_map_t *map, yb_load_t *load, int rest)
         load->y = (int16_t)fix_clamp(load->y, 0, load->rows);
     }
     contour->count++;
-    if (!add_point(map, load, map->vertex[contour->first].z_q8))
+    if (!add_point(load, load->map->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     if (load->open)
-        return on_frame(map, &map->vertex[load->point_count - 1]) ? next_line(load)
+        return on_frame(load, &load->map->vertex[load->point_count - 1]) ? next_line(load)
                                                                   : next_step(load);
     if (contour->count < 3)
         return next_step(load);
@@ -413,7 +413,7 @@ static int take_place(yb_map_t *map, yb_load_t *load, int rest)
     return END_OF_LINE;
 }
 
-static int take_line(yb_map_t *map, yb_load_t *load, int value)
+static int take_line(yb_load_t *load, int value)
 {
     switch ((enum field)load->state) {
     case LINE_COUNT:
@@ -441,7 +441,7 @@ static int take_line(yb_map_t *map, yb_load_t *load, int value)
         load->at = (uint16_t)(load->length - 1);
         return PLACE;
     case PLACE:
-        return take_place(map, load, value);
+        return take_place(load, value);
     default:
         return value != 0 ? next_line(load) : next_step(load);
     }
@@ -521,7 +521,7 @@ static int take_corner_height(yb_load_t *load, int32_t units)
     return next_corner(load);
 }
 
-static int take_height(yb_map_t *map, yb_load_t *load, int value)
+static int take_height(yb_load_t *load, int value)
 {
     int state = load->state;
     if ((state - LINE_HEIGHT) % 2 == 0) {
@@ -533,10 +533,10 @@ static int take_height(yb_map_t *map, yb_load_t *load, int value)
     }
     bool of_line = state <= LINE_DOWN;
     int32_t units =
-        height_near(map, load) + (int32_t)load->height * (1 << (of_line ? load->interval : 0));
+        height_near(load) + (int32_t)load->height * (1 << (of_line ? load->interval : 0));
     if (state >= CORNER_HEIGHT && state <= CORNER_DOWN)
         return take_corner_height(load, units);
-    if (!begin_contour(map, load, units))
+    if (!begin_contour(load, units))
         return YB_ERR_CORRUPT;
     load->length_context = 0;
     return of_line ? next_step(load) : next_spot(load);
@@ -548,10 +548,10 @@ static int take_height(yb_map_t *map, yb_load_t *load, int value)
  * below 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits. Counted from the
  * lowest height, so that the division rounds down. False: too low or too high.
  */
-static bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
+static bool settle_height(const yb_load_t *load, uint32_t rest_64th_m, int32_t *height)
 {
-    uint32_t cell = yb_unit_64th_m(map->cell);
-    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(map->unit) + rest_64th_m;
+    uint32_t cell = yb_unit_64th_m(load->map->cell);
+    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(load->map->unit) + rest_64th_m;
     int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
     if (above < 0)
         return false;
@@ -560,35 +560,35 @@ static bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *he
     return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
 }
 
-static yb_status_t end_relief(yb_map_t *map, yb_load_t *load)
+static yb_status_t end_relief(yb_load_t *load)
 {
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
-    int64_t base_64th_m = (int64_t)load->base * yb_unit_64th_m(map->unit) + ((int32_t)1 << 21);
+    int64_t base_64th_m = (int64_t)load->base * yb_unit_64th_m(load->map->unit) + ((int32_t)1 << 21);
     bool good = base_64th_m >= 0 && base_64th_m < (int32_t)1 << 22;
     uint32_t rest = (uint32_t)base_64th_m & 63;
-    map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - 32768);
-    map->seed = load->recent >> 8 & 127;
-    good = good && settle_height(map, rest, &load->frame_height);
+    load->map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - 32768);
+    load->map->seed = load->recent >> 8 & 127;
+    good = good && settle_height(load, rest, &load->frame_height);
     for (int i = 0; i < 4 && good; i++)
         good = load->corner_height[i] == UNKNOWN_HEIGHT ||
-               settle_height(map, rest, &load->corner_height[i]);
+               settle_height(load, rest, &load->corner_height[i]);
     for (int i = 0; i < load->point_count && good; i++)
-        good = settle_height(map, rest, &map->vertex[i].z_q8);
+        good = settle_height(load, rest, &load->map->vertex[i].z_q8);
     return good ? YB_OK : YB_ERR_CORRUPT;
 }
 
-static int take_field(yb_map_t *map, yb_load_t *load)
+static int take_field(yb_load_t *load)
 {
     int value = load->value;
     load->at = 0;
     if (load->state < LINE_COUNT)
-        return take_header(map, load, value);
+        return take_header(load, value);
     if (load->state < CORNER)
-        return take_line(map, load, value);
+        return take_line(load, value);
     if (load->state < LINE_HEIGHT)
         return take_corner_or_spot(load, value);
     if (load->state < SECTIONS)
-        return take_height(map, load, value);
+        return take_height(load, value);
     load->section = value != 0 ? 0 : SECTION_LAST;
     return END_OF_RELIEF;
 }
@@ -601,17 +601,17 @@ void compact_begin(yb_load_t *load)
     ask(load, CELL_EXPONENT);
 }
 
-yb_status_t compact_take(yb_map_t *map, yb_load_t *load, uint8_t byte)
+yb_status_t compact_take(yb_load_t *load, uint8_t byte)
 {
     load->recent = (uint16_t)(load->recent << 8 | byte);
     load->range <<= 8;
     load->code = load->code << 8 | byte;
     while (load->range >= RANGE_LEAST) {
         if (load->state == END_OF_RELIEF)
-            return end_relief(map, load);
+            return end_relief(load);
         if (!decide_element(load))
             continue;
-        int next = take_field(map, load);
+        int next = take_field(load);
         if (next < 0)
             return (yb_status_t)next;
         ask(load, next);

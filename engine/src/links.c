@@ -11,32 +11,31 @@ enum {
     MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
-int32_t height_of(const place_t *place, int contour)
+int32_t height_of(const yb_load_t *load, int contour)
 {
-    return first_of(place, contour)->z_q8;
+    return first_of(load, contour)->z_q8;
 }
 
-bool bounds(const place_t *place, int contour)
+bool bounds(const yb_load_t *load, int contour)
 {
-    const yb_contour_t *c = &place->load->contour[contour];
-    return is_line(c) && (c->left == place->region || c->right == place->region);
+    const yb_contour_t *c = &load->contour[contour];
+    return is_line(c) && (c->left == load->here || c->right == load->here);
 }
 
-bool bounds_at(const place_t *place, int contour, int32_t h)
+bool bounds_at(const yb_load_t *load, int contour, int32_t h)
 {
-    return bounds(place, contour) && height_of(place, contour) == h;
+    return bounds(load, contour) && height_of(load, contour) == h;
 }
 
 /* Finds for every other region which line of this one leads to it. */
-static void look_beyond(const place_t *place)
+static void look_beyond(yb_load_t *load)
 {
-    yb_load_t *load = place->load;
     for (int r = 0; r < load->region_count; r++)
         load->way_to[r] = NOWHERE;
     for (int c = 0; c < load->contour_count; c++) {
-        if (bounds(place, c)) {
+        if (bounds(load, c)) {
             const yb_contour_t *line = &load->contour[c];
-            load->way_to[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
+            load->way_to[line->left == load->here ? line->right : line->left] = (yb_index_t)c;
         }
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
@@ -46,7 +45,7 @@ static void look_beyond(const place_t *place)
         for (int k = 0; k < load->contour_count; k++) {
             int c = back ? load->contour_count - 1 - k : k;
             const yb_contour_t *line = &load->contour[c];
-            if (!is_line(line) || bounds(place, c))
+            if (!is_line(line) || bounds(load, c))
                 continue;
             yb_index_t l = load->way_to[line->left];
             yb_index_t r = load->way_to[line->right];
@@ -58,12 +57,12 @@ static void look_beyond(const place_t *place)
     }
 }
 
-int line_before(const place_t *place, int s)
+int line_before(const yb_load_t *load, int s)
 {
-    const yb_contour_t *spot = &place->load->contour[s];
-    if (is_line(spot) || spot->left == place->region)
+    const yb_contour_t *spot = &load->contour[s];
+    if (is_line(spot) || spot->left == load->here)
         return NOWHERE;
-    return place->load->way_to[spot->left];
+    return load->way_to[spot->left];
 }
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
@@ -72,26 +71,25 @@ int line_before(const place_t *place, int s)
  * a leaf (line < 0) one of those in it; else one beyond another line, if the ground goes on there
  * the way it goes to that line. -1: none.
  */
-static int ruler_of(const place_t *place, yb_index_t p, int line)
+static int ruler_of(const yb_load_t *load, int p, int line)
 {
-    const yb_load_t *load = place->load;
-    int32_t z = place->map->vertex[p].z_q8;
+    int32_t z = height_at(load, p);
     int ruler = -1;
     int32_t rise = 0;
     int32_t run = 1;
     for (int s = 0; s < all_contours(load); s++) {
         const yb_contour_t *spot = &load->contour[s];
-        int32_t top = height_of(place, s);
-        if (is_line(spot) || (line < 0) != (spot->left == place->region))
+        int32_t top = height_of(load, s);
+        if (is_line(spot) || (line < 0) != (spot->left == load->here))
             continue;
         if (line >= 0) {
-            int before = line_before(place, s);
-            int32_t h = before == NOWHERE ? z : height_of(place, before);
+            int before = line_before(load, s);
+            int32_t h = before == NOWHERE ? z : height_of(load, before);
             if (before == line || h == z || top == h || (h > z) != (top > h))
                 continue;
         }
         int32_t up = fix_abs(top - z);
-        int32_t along = edge_length(place->map, p, spot->first);
+        int32_t along = edge_length(load, p, spot->first);
         if ((int64_t)up * run > (int64_t)rise * along) {
             ruler = s;
             rise = up;
@@ -104,17 +102,14 @@ static int ruler_of(const place_t *place, yb_index_t p, int line)
 /* Is the leaf narrower at point p than the summit is far: is a point of the same height across it
  * nearer? Then p stands by a ridge, which the skeleton will follow.
  */
-static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
+static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 {
-    const yb_map_t *map = place->map;
-    const yb_load_t *load = place->load;
-    int32_t far = edge_length(map, p, summit);
-    yb_triangle_t first = first_at(map, load, p);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
-        int at = corner_of(map, t, p);
-        yb_index_t q = map->triangle[t][next3(at)];
-        if (load->region[t] == place->region && entry_of(load, t, at) < NO_TRIANGLE &&
-            map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
+    int32_t far = edge_length(load, p, summit);
+    half_t first = first_spoke(load, p);
+    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+        int q = end_of(load, e);
+        if (load->region[triangle_of(e)] == load->here && entry_of(load, e) < NO_TRIANGLE &&
+            height_at(load, q) == height_at(load, p) && edge_length(load, p, q) < far)
             return true;
     }
     return false;
@@ -123,21 +118,20 @@ static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
 /* All of a leaf's points to its summit. First all wishes, then all links: a wish sees the mesh that
  * the others saw.
  */
-static yb_status_t fan(const place_t *place, int line)
+static yb_status_t fan(yb_load_t *load, int line)
 {
-    yb_load_t *load = place->load;
     const yb_contour_t *contour = &load->contour[line];
     for (int k = 0; k < contour->count; k++) {
-        yb_index_t p = (yb_index_t)(contour->first + k);
-        int s = ruler_of(place, p, -1);
-        yb_index_t summit = s < 0 ? p : load->contour[s].first;
-        load->wish[p] = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
+        int p = contour->first + k;
+        int s = ruler_of(load, p, -1);
+        int summit = s < 0 ? p : load->contour[s].first;
+        load->wish[p] = (yb_index_t)(s < 0 || by_a_ridge(load, p, summit) ? p : summit);
     }
     for (int k = 0; k < contour->count; k++) {
-        yb_index_t p = (yb_index_t)(contour->first + k);
-        yb_index_t summit = load->wish[p];
-        if (summit != p && mesh_sees(place->map, load, p, summit) &&
-            mesh_force_edge(place->map, load, p, summit) != YB_OK)
+        int p = contour->first + k;
+        int summit = load->wish[p];
+        if (summit != p && mesh_sees(load, p, summit) &&
+            mesh_force_edge(load, p, summit) != YB_OK)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
@@ -148,9 +142,9 @@ static yb_status_t fan(const place_t *place, int line)
 /* Distance of point p from the segment ab, in 1/64 steps. Plan differences are below 2^14: squares
  * of lengths are below 2^29.
  */
-static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
+static int32_t distance(const yb_load_t *load, int p, int a, int b)
 {
-    const yb_vertex_t *v = map->vertex;
+    const yb_vertex_t *v = load->map->vertex;
     int32_t abx = fix_minus(v[b].x_q8, v[a].x_q8) >> 2;
     int32_t aby = fix_minus(v[b].y_q8, v[a].y_q8) >> 2;
     int32_t apx = fix_minus(v[p].x_q8, v[a].x_q8) >> 2;
@@ -161,20 +155,18 @@ static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_inde
         return fix_length(apx, apy);
     if (along >= square)
         return fix_length(apx - abx, apy - aby);
-    return fix_abs(orientation(map, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
+    return fix_abs(orientation(load, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
 }
 
 /* The nearest way from p to the region's lines of height h. */
-static int32_t shortest_way(const place_t *place, yb_index_t p, int32_t h)
+static int32_t shortest_way(const yb_load_t *load, int p, int32_t h)
 {
-    const yb_load_t *load = place->load;
     int32_t shortest = INT32_MAX;
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(place, c, h))
+        if (!bounds_at(load, c, h))
             continue;
         for (int k = 0; k < load->contour[c].count; k++)
-            shortest = fix_min(
-                shortest, edge_length(place->map, p, (yb_index_t)(load->contour[c].first + k)));
+            shortest = fix_min(shortest, edge_length(load, p, load->contour[c].first + k));
     }
     return shortest;
 }
@@ -188,19 +180,18 @@ typedef struct {
 /* The point of the region's lines of height h that is nearest to the segment from p to its peak and
  * comes after `last`, of those that are not farther from p than `far`.
  */
-static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int32_t h, int32_t far,
+static near_t next_near(const yb_load_t *load, int p, int peak, int32_t h, int32_t far,
                         near_t last)
 {
-    const yb_load_t *load = place->load;
     near_t nearest = {INT32_MAX, -1};
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(place, c, h))
+        if (!bounds_at(load, c, h))
             continue;
         for (int k = 0; k < load->contour[c].count; k++) {
-            yb_index_t q = (yb_index_t)(load->contour[c].first + k);
-            if (edge_length(place->map, p, q) > far)
+            int q = load->contour[c].first + k;
+            if (edge_length(load, p, q) > far)
                 continue;
-            int32_t off = distance(place->map, q, p, peak);
+            int32_t off = distance(load, q, p, peak);
             if ((off > last.off || (off == last.off && q > last.point)) && off < nearest.off)
                 nearest = (near_t){off, q};
         }
@@ -212,23 +203,22 @@ static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int
  * points that are at most a quarter farther than the nearest: where there is none, the slope leads
  * elsewhere, whatever the peak.
  */
-static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
+static yb_status_t link_down(yb_load_t *load, int p, int line)
 {
-    yb_load_t *load = place->load;
-    int s = ruler_of(place, p, line);
+    int s = ruler_of(load, p, line);
     if (s < 0)
         return YB_OK;
-    yb_index_t peak = load->contour[s].first;
-    int32_t h = height_of(place, line_before(place, s));
-    int32_t far = shortest_way(place, p, h);
+    int peak = load->contour[s].first;
+    int32_t h = height_of(load, line_before(load, s));
+    int32_t far = shortest_way(load, p, h);
     far += far >> 2;
     near_t near = {-1, -1};
     for (int tries = 0; tries < MOST_TRIES; tries++) {
-        near = next_near(place, p, peak, h, far, near);
+        near = next_near(load, p, peak, h, far, near);
         if (near.point < 0)
             return YB_OK;
-        if (mesh_sees(place->map, load, p, (yb_index_t)near.point))
-            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point);
+        if (mesh_sees(load, p, near.point))
+            return mesh_force_edge(load, p, near.point);
     }
     return YB_OK;
 }
@@ -236,43 +226,41 @@ static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
 /* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
  * may wrap.
  */
-static bool turns_left(const yb_map_t *map, const yb_contour_t *line)
+static bool turns_left(const yb_load_t *load, const yb_contour_t *line)
 {
     uint32_t area = 0;
     for (int k = 1; k + 1 < line->count; k++)
-        area += (uint32_t)orientation(map, line->first, (yb_index_t)(line->first + k),
-                                      (yb_index_t)(line->first + k + 1));
+        area += (uint32_t)orientation(load, line->first, line->first + k, line->first + k + 1);
     return (int32_t)area > 0;
 }
 
 /* Does the line lie round the region, or does it go from frame to frame? */
-static bool is_outer(const place_t *place, int line)
+static bool is_outer(const yb_load_t *load, int line)
 {
-    const yb_contour_t *c = &place->load->contour[line];
-    return c->open || (c->left == place->region) == turns_left(place->map, c);
+    const yb_contour_t *c = &load->contour[line];
+    return c->open || (c->left == load->here) == turns_left(load, c);
 }
 
-static yb_status_t apply_rules(const place_t *place)
+static yb_status_t apply_rules(yb_load_t *load)
 {
-    yb_load_t *load = place->load;
     int lines = 0;
     int line = 0;
     for (int c = 0; c < load->contour_count; c++) {
-        if (bounds(place, c)) {
+        if (bounds(load, c)) {
             lines++;
             line = c;
         }
     }
     if (lines == 1)
-        return fan(place, line);
-    look_beyond(place);
-    if (saddles_add(place) != YB_OK)
+        return fan(load, line);
+    look_beyond(load);
+    if (saddles_add(load) != YB_OK)
         return YB_ERR_LIMIT;
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(place, c) || !is_outer(place, c))
+        if (!bounds(load, c) || !is_outer(load, c))
             continue;
         for (int k = 0; k < load->contour[c].count; k++) {
-            if (link_down(place, (yb_index_t)(load->contour[c].first + k), c) != YB_OK)
+            if (link_down(load, load->contour[c].first + k, c) != YB_OK)
                 return YB_ERR_LIMIT;
         }
     }
@@ -280,28 +268,26 @@ static yb_status_t apply_rules(const place_t *place)
 }
 
 /* Does an earlier line, or the left side of this one, bound the region too? */
-static bool seen_before(const yb_load_t *load, int side, yb_index_t region)
+static bool seen_before(const yb_load_t *load, int side)
 {
     for (int k = 0; k < side; k++) {
         const yb_contour_t *c = &load->contour[k >> 1];
-        if (is_line(c) && ((k & 1) == 0 ? c->left : c->right) == region)
+        if (is_line(c) && ((k & 1) == 0 ? c->left : c->right) == load->here)
             return true;
     }
     return false;
 }
 
-yb_status_t links_add(yb_map_t *map, yb_load_t *load)
+yb_status_t links_add(yb_load_t *load)
 {
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
         const yb_contour_t *c = &load->contour[side >> 1];
-        place_t place = {map, load, (side & 1) == 0 ? c->left : c->right};
-        if (!is_line(c) || seen_before(load, side, place.region))
-            continue;
-        if (apply_rules(&place) != YB_OK)
+        load->here = (side & 1) == 0 ? c->left : c->right;
+        if (is_line(c) && !seen_before(load, side) && apply_rules(load) != YB_OK)
             return YB_ERR_LIMIT;
     }
-    mesh_make_delaunay(map, load);
+    mesh_make_delaunay(load);
     return YB_OK;
 }
 
@@ -340,7 +326,7 @@ yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
 {
     yb_index_t a = map->triangle[triangle][edge];
     yb_index_t b = map->triangle[triangle][next3(edge)];
-    if (is_marked(load, triangle, edge))
+    if (is_marked(load, 4 * (half_t)triangle + edge))
         return rule_of_marked(load, a < b ? a : b, a < b ? b : a);
     /* The way that a branch of a skeleton takes, its beginning included. */
     for (int k = 0; k < 2; k++) {

@@ -80,16 +80,16 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
  * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^14 1/64 steps and heights
  * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49.
  */
-static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
+static void find_slope(const yb_load_t *load, int v)
 {
     int64_t sum_x = 0;
     int64_t sum_y = 0;
     int64_t sum_z = 0;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        const yb_vertex_t *a = &map->vertex[map->triangle[t][0]];
-        const yb_vertex_t *b = &map->vertex[map->triangle[t][1]];
-        const yb_vertex_t *c = &map->vertex[map->triangle[t][2]];
+    yb_vertex_t *a = &load->map->vertex[v];
+    half_t first = first_spoke(load, v);
+    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+        const yb_vertex_t *b = vertex_of(load, end_of(load, e));
+        const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
         int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;
         int32_t aby = fix_minus(b->y_q8, a->y_q8) >> 2;
         int32_t abz = b->z_q8 - a->z_q8;
@@ -102,8 +102,8 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
             sum_z += abx * acy - aby * acx;
         }
     }
-    map->vertex[v].gx_q11 = 0;
-    map->vertex[v].gy_q11 = 0;
+    a->gx_q11 = 0;
+    a->gy_q11 = 0;
     if (sum_z == 0)
         return; /* flat all round: level */
     /* Heights count 1/256 step, plan differences 1/64 step: 2 bits; with the slope's 11, times 2^9,
@@ -113,8 +113,8 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
     gx = gx >= 0 ? gx / sum_z : -((sum_z - 1 - gx) / sum_z);
     gy = gy >= 0 ? gy / sum_z : -((sum_z - 1 - gy) / sum_z);
     const int64_t most = YB_MAX_SLOPE_Q11;
-    map->vertex[v].gx_q11 = (int16_t)(gx > most ? most : gx < -most ? -most : gx);
-    map->vertex[v].gy_q11 = (int16_t)(gy > most ? most : gy < -most ? -most : gy);
+    a->gx_q11 = (int16_t)(gx > most ? most : gx < -most ? -most : gx);
+    a->gy_q11 = (int16_t)(gy > most ? most : gy < -most ? -most : gy);
 }
 
 /* Keeps the parabolas on the edges at v from overshooting: none may begin more than half as steep
@@ -122,14 +122,14 @@ static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
  * Slopes are at most 2^13 and plan differences below 2^16: s is within 2^30, in 1/2048 height
  * units; rises are within 2^18, so 1.5 · 2048 times that, and 15 bits, is below 2^45.
  */
-static void limit_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
+static void limit_slope(const yb_load_t *load, int v)
 {
-    yb_vertex_t *a = &map->vertex[v];
+    yb_vertex_t *a = &load->map->vertex[v];
     int32_t share_q15 = 32768;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        for (int i = 0; i < 3; i++) {
-            const yb_vertex_t *b = &map->vertex[map->triangle[t][i]];
+    half_t first = first_spoke(load, v);
+    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+        for (int i = 0; i < 2; i++) {
+            const yb_vertex_t *b = vertex_of(load, i == 0 ? end_of(load, e) : apex_of(load, e));
             int32_t s =
                 a->gx_q11 * fix_minus(b->x_q8, a->x_q8) + a->gy_q11 * fix_minus(b->y_q8, a->y_q8);
             int32_t rise = b->z_q8 - a->z_q8;
@@ -155,28 +155,24 @@ static int32_t log2_square_q11(uint32_t half_square)
  * edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18, and
  * kept with 8 more bits where it is small enough; 1020 terms.
  */
-static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
+static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
 {
     uint64_t sum = 0;
     uint32_t edges = 0;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++) {
-            yb_triangle_t u = neighbour_of(load, t, i);
-            if (u < t)
-                continue; /* each edge once; those of the frame too */
-            edges++;
-            const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
-            const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
-            uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
-            if (rise == 0)
-                continue;
-            int32_t dx = fix_abs(fix_minus(b->x_q8, a->x_q8)) >> 1;
-            int32_t dy = fix_abs(fix_minus(b->y_q8, a->y_q8)) >> 1;
-            int32_t square = log2_square_q11((uint32_t)(dx * dx) + (uint32_t)(dy * dy));
-            int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
-            sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
-                                       : (uint64_t)fix_exp2_q11(term) << 8;
-        }
+    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+        if ((entry_of(load, e) & NO_TRIANGLE) < triangle_of(e))
+            continue; /* each edge once; those of the frame too */
+        edges++;
+        const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
+        const yb_vertex_t *b = vertex_of(load, end_of(load, e));
+        uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
+        if (rise == 0)
+            continue;
+        int32_t square = log2_square_q11(
+            relief_half_square(fix_minus(b->x_q8, a->x_q8), fix_minus(b->y_q8, a->y_q8)));
+        int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
+        sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
+                                   : (uint64_t)fix_exp2_q11(term) << 8;
     }
     if (edges == 0 || sum < edges)
         return INT32_MIN;
@@ -186,11 +182,11 @@ static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
  * edge one step long; INT32_MIN for none.
  */
-static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
+static int32_t log2_amplitude(const yb_load_t *load, int32_t hurst_q8)
 {
     /* A midpoint of fractional Brownian motion strays by L^H 2^-H sqrt(1 - 2^(2H-2)). */
     uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * ONE_Q11);
-    int32_t roughness = log2_roughness(map, load, hurst_q8);
+    int32_t roughness = log2_roughness(load, hurst_q8);
     if (rest == 0 || load->gain == 0 || roughness == INT32_MIN)
         return INT32_MIN;
     int32_t variance = roughness + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
@@ -230,15 +226,16 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
     }
 }
 
-void relief_prepare(yb_map_t *map, const yb_load_t *load)
+void relief_prepare(const yb_load_t *load)
 {
+    yb_map_t *map = load->map;
     map->low_q8 = map->high_q8 = map->vertex[0].z_q8;
     for (int i = 0; i < map->vertex_count; i++) {
         map->low_q8 = fix_min(map->low_q8, map->vertex[i].z_q8);
         map->high_q8 = fix_max(map->high_q8, map->vertex[i].z_q8);
-        find_slope(map, load, (yb_index_t)i);
-        limit_slope(map, load, (yb_index_t)i);
+        find_slope(load, i);
+        limit_slope(load, i);
     }
     int32_t hurst_q8 = map->hurst_q8m1 + 1;
-    fill_tables(map, log2_amplitude(map, load, hurst_q8), hurst_q8);
+    fill_tables(map, log2_amplitude(load, hurst_q8), hurst_q8);
 }

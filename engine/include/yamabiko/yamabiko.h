@@ -204,6 +204,7 @@ typedef struct {
     uint16_t first_skeleton; /* … and from here on points of skeletons */
     uint16_t relief_size;    /* bytes of the code before its sections, or its check byte */
     uint8_t profile;
+    yb_index_t here; /* private: the region whose rules are applied */
     /* private: the decoder. Bytes first, then the smaller numbers: the shortest instructions of
      * small processors reach no farther. */
     uint8_t part, crc, section;
@@ -219,14 +220,15 @@ typedef struct {
     yb_status_t result;
     int16_t x, y, start_x, start_y, start_way, length, height;
     yb_ring_t last; /* step */
+    yb_map_t *map; /* what is loaded */
     uint32_t range, code, cell;
     int32_t base;
+    int32_t level_q8, other_q8; /* saddles.c: of lines with passes between, and where those lead */
     uint8_t gain;
     /* of the paper profile (paper.c) */
     uint8_t flags;
     uint8_t bits_held;
     uint32_t bits;
-    uint8_t header[14];
     /* private: what both find */
     int32_t corner_height[4];
     int32_t frame_height;
@@ -244,6 +246,7 @@ typedef struct {
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
     /* private: what one stage alone needs; each fills it in before it reads it */
     union {
+        uint8_t header[14];                    /* paper.c */
         uint16_t model[128];                   /* compact.c: what it has learned */
         yb_triangle_t root[YB_MAX_TRIANGLES];  /* regions.c: union-find */
         uint8_t ground[YB_MAX_REGIONS];        /* summits.c: what a region is like */
