@@ -13,7 +13,8 @@ half_t last_of(half_t e)
 
 int origin_of(const yb_load_t *load, half_t e)
 {
-    return load->map->triangle[e >> 2][e & 3];
+    const yb_index_t *corner = load->map->triangle[0]; /* three a triangle, in a row */
+    return corner[e - triangle_of(e)];
 }
 
 int end_of(const yb_load_t *load, half_t e)
@@ -40,16 +41,16 @@ void set_entry(yb_load_t *load, half_t e, int entry)
 
 half_t half_at(const yb_load_t *load, int t, int v)
 {
-    half_t e = 4 * t;
-    while ((e & 2) == 0 && origin_of(load, e) != v)
-        e++;
-    return e;
+    const yb_index_t *corner = load->map->triangle[t];
+    return 4 * t + (corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
 }
 
 half_t twin_of(const yb_load_t *load, half_t e)
 {
     int t = entry_of(load, e) & NO_TRIANGLE;
-    return t == NO_TRIANGLE ? NO_HALF : half_at(load, t, end_of(load, e));
+    if (t == NO_TRIANGLE)
+        return NO_HALF;
+    return half_at(load, t, end_of(load, e));
 }
 
 half_t spoke_left(const yb_load_t *load, half_t e)

@@ -31,15 +31,17 @@ static void take_facet(const yb_load_t *load, half_t e, facet_t *facet)
  */
 static void put_facet(yb_load_t *load, int t, const facet_t *facet)
 {
-    for (int k = 0; k < 3; k++) {
+    yb_across_t word = 0;
+    for (int k = 2; k >= 0; k--) {
         int entry = (int)facet->across[k];
         int u = entry & NO_TRIANGLE;
+        word = word << ENTRY_BITS | (yb_across_t)entry;
         load->map->triangle[t][k] = facet->v[k];
         load->star[facet->v[k]] = (yb_triangle_t)t;
-        set_entry(load, 4 * t + k, entry);
         if (u != NO_TRIANGLE)
             set_entry(load, half_at(load, u, facet->v[next3(k)]), t | (entry & ENTRY_MARK));
     }
+    load->across[t] = word;
 }
 
 /* Replaces the common edge ab of the triangle of e and its neighbour by the other diagonal dc of
