@@ -139,22 +139,15 @@ static yb_status_t fan(yb_load_t *load, int line)
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ------------------------------------------------- */
 
-/* Distance of point p from the segment ab, in 1/64 steps. Plan differences are below 2^14: squares
- * of lengths are below 2^29.
- */
+/* Distance of point p from the segment ab, in 1/64 steps. */
 static int32_t distance(const yb_load_t *load, int p, int a, int b)
 {
-    const yb_vertex_t *v = load->map->vertex;
-    int32_t abx = fix_minus(v[b].x_q8, v[a].x_q8) >> 2;
-    int32_t aby = fix_minus(v[b].y_q8, v[a].y_q8) >> 2;
-    int32_t apx = fix_minus(v[p].x_q8, v[a].x_q8) >> 2;
-    int32_t apy = fix_minus(v[p].y_q8, v[a].y_q8) >> 2;
-    int32_t along = abx * apx + aby * apy;
-    int32_t square = abx * abx + aby * aby;
+    int32_t along = dot(load, a, b, p);
+    int32_t square = dot(load, a, b, b);
     if (along <= 0)
-        return fix_length(apx, apy);
+        return edge_length(load, a, p) >> 2;
     if (along >= square)
-        return fix_length(apx - abx, apy - aby);
+        return edge_length(load, b, p) >> 2;
     return fix_abs(orientation(load, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
 }
 

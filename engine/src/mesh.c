@@ -91,6 +91,24 @@ bool on_frame(const yb_load_t *load, const yb_vertex_t *v)
     return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
 }
 
+void find_way(const yb_load_t *load, int a, int b, int32_t way[3])
+{
+    const yb_vertex_t *v = vertex_of(load, a);
+    const yb_vertex_t *w = vertex_of(load, b);
+    way[0] = fix_minus(w->x_q8, v->x_q8) >> 2;
+    way[1] = fix_minus(w->y_q8, v->y_q8) >> 2;
+    way[2] = w->z_q8 - v->z_q8;
+}
+
+int32_t dot(const yb_load_t *load, int o, int a, int b)
+{
+    int32_t to_a[3];
+    int32_t to_b[3];
+    find_way(load, o, a, to_a);
+    find_way(load, o, b, to_b);
+    return to_a[0] * to_b[0] + to_a[1] * to_b[1];
+}
+
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
 {
     int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;

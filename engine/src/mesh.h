@@ -118,6 +118,16 @@ static inline int32_t height_at(const yb_load_t *load, int v)
 
 bool on_frame(const yb_load_t *load, const yb_vertex_t *v);
 
+/* From vertex a to vertex b: x and y in 1/64 step, z in q8. Coordinates are multiples of 4 below
+ * 2^16: within ±2^14.
+ */
+void find_way(const yb_load_t *load, int a, int b, int32_t way[3]);
+
+/* Product of the ways from o to a and from o to b in the plan, in square 1/64 steps: positive where
+ * the angle between them is acute, the square of the distance if a is b. Within ±2^29.
+ */
+int32_t dot(const yb_load_t *load, int o, int a, int b);
+
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
  */

@@ -75,6 +75,18 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
 
 /* --- The constants of the map ----------------------------------------------------------------- */
 
+/* The slope -sum / sum_z, with 11 bits, cut: sums count heights in 1/256 step and plan differences in
+ * 1/64 step, 2 bits; 9 more make 2^58 in all, and the steepest slope less than 2^62. Counted from the
+ * steepest one downwards, so that the division rounds down, like everything.
+ */
+static int16_t slope_q11(int64_t sum, int64_t sum_z)
+{
+    const int32_t most = YB_MAX_SLOPE_Q11;
+    int64_t above = most * sum_z - sum * 512;
+    int64_t slope = above < 0 ? 0 : above / sum_z;
+    return (int16_t)((slope > 2 * most ? 2 * most : (int32_t)slope) - most);
+}
+
 /* Slope of the smooth surface at v: the area-weighted mean over the triangles that meet there, flat
  * ones left out. The upward normals n of triangles twice their area long are just summed: the slope
  * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^14 1/64 steps and heights
@@ -82,45 +94,31 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
  */
 static void find_slope(const yb_load_t *load, int v)
 {
-    int64_t sum_x = 0;
-    int64_t sum_y = 0;
-    int64_t sum_z = 0;
-    yb_vertex_t *a = &load->map->vertex[v];
+    int64_t sum[3] = {0, 0, 0};
     half_t first = first_spoke(load, v);
     for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
-        const yb_vertex_t *b = vertex_of(load, end_of(load, e));
-        const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
-        int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;
-        int32_t aby = fix_minus(b->y_q8, a->y_q8) >> 2;
-        int32_t abz = b->z_q8 - a->z_q8;
-        int32_t acx = fix_minus(c->x_q8, a->x_q8) >> 2;
-        int32_t acy = fix_minus(c->y_q8, a->y_q8) >> 2;
-        int32_t acz = c->z_q8 - a->z_q8;
-        if (abz != 0 || acz != 0) {
-            sum_x += (int64_t)aby * acz - (int64_t)abz * acy;
-            sum_y += (int64_t)abz * acx - (int64_t)abx * acz;
-            sum_z += abx * acy - aby * acx;
+        int32_t right[3];
+        int32_t left[3];
+        find_way(load, v, end_of(load, e), right);
+        find_way(load, v, apex_of(load, e), left);
+        int j = 1;
+        int k = 2;
+        for (int i = 0; i < 3 && (right[2] | left[2]) != 0; i++) {
+            sum[i] += (int64_t)right[j] * left[k] - (int64_t)right[k] * left[j];
+            j = k;
+            k = i;
         }
     }
-    a->gx_q11 = 0;
-    a->gy_q11 = 0;
-    if (sum_z == 0)
-        return; /* flat all round: level */
-    /* Heights count 1/256 step, plan differences 1/64 step: 2 bits; with the slope's 11, times 2^9,
-     * 2^58 in all. Rounded down, like everything. */
-    int64_t gx = -sum_x * 512;
-    int64_t gy = -sum_y * 512;
-    gx = gx >= 0 ? gx / sum_z : -((sum_z - 1 - gx) / sum_z);
-    gy = gy >= 0 ? gy / sum_z : -((sum_z - 1 - gy) / sum_z);
-    const int64_t most = YB_MAX_SLOPE_Q11;
-    a->gx_q11 = (int16_t)(gx > most ? most : gx < -most ? -most : gx);
-    a->gy_q11 = (int16_t)(gy > most ? most : gy < -most ? -most : gy);
+    yb_vertex_t *a = &load->map->vertex[v];
+    bool level = sum[2] == 0; /* flat all round */
+    a->gx_q11 = level ? 0 : slope_q11(sum[0], sum[2]);
+    a->gy_q11 = level ? 0 : slope_q11(sum[1], sum[2]);
 }
 
 /* Keeps the parabolas on the edges at v from overshooting: none may begin more than half as steep
  * again as its chord, in the chord's direction (one up to twice as steep would still be monotone).
  * Slopes are at most 2^13 and plan differences below 2^16: s is within 2^30, in 1/2048 height
- * units; rises are within 2^18, so 1.5 · 2048 times that, and 15 bits, is below 2^45.
+ * units; rises are within 2^18, so 1.5 · 2048 times that is below 2^30.
  */
 static void limit_slope(const yb_load_t *load, int v)
 {
@@ -132,11 +130,9 @@ static void limit_slope(const yb_load_t *load, int v)
             const yb_vertex_t *b = vertex_of(load, i == 0 ? end_of(load, e) : apex_of(load, e));
             int32_t s =
                 a->gx_q11 * fix_minus(b->x_q8, a->x_q8) + a->gy_q11 * fix_minus(b->y_q8, a->y_q8);
-            int32_t rise = b->z_q8 - a->z_q8;
-            int64_t most = (int64_t)fix_abs(rise) * 3072;
-            int32_t along = fix_abs(s);
-            if (rise != 0 && along != 0 && (rise > 0) == (s > 0) && along > most)
-                share_q15 = fix_min(share_q15, (int32_t)((most << 15) / along));
+            int32_t most = (b->z_q8 - a->z_q8) * 3072;
+            if ((s > 0) == (most > 0) && most != 0 && fix_abs(s) > fix_abs(most))
+                share_q15 = fix_min(share_q15, fix_scale(most, 32768, s));
         }
     }
     a->gx_q11 = (int16_t)((a->gx_q11 * share_q15) >> 15);

@@ -129,17 +129,10 @@ typedef struct {
     bool beyond;
 } spot_t;
 
-/* Is the angle at the apex acute? Plan differences in 1/64 steps are below 2^14: each product below
- * 2^28.
- */
+/* Is the angle at the apex acute? */
 static bool is_acute(const yb_load_t *load, half_t e)
 {
-    const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
-    const yb_vertex_t *b = vertex_of(load, end_of(load, e));
-    const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
-    return (fix_minus(a->x_q8, c->x_q8) >> 2) * (fix_minus(b->x_q8, c->x_q8) >> 2) +
-               (fix_minus(a->y_q8, c->y_q8) >> 2) * (fix_minus(b->y_q8, c->y_q8) >> 2) >
-           0;
+    return dot(load, apex_of(load, e), origin_of(load, e), end_of(load, e)) > 0;
 }
 
 /* The widest place of a region: the middle of the longest edge that no line runs along, for that is
