@@ -58,11 +58,13 @@ static int32_t interpolate(const yb_load_t *load, yb_index_t corner)
             height_behind = v->z_q8;
         }
     }
-    /* Counted from the lowest possible height, so that the division rounds down. Heights are then
-     * at most 2^18, as ways are: the sum stays below 2^37. */
-    uint64_t sum = (uint64_t)(height_ahead + YB_MAX_HEIGHT_Q8) * behind +
-                   (uint64_t)(height_behind + YB_MAX_HEIGHT_Q8) * ahead;
-    return (int32_t)((sum + (ahead + behind) / 2) / (ahead + behind)) - YB_MAX_HEIGHT_Q8;
+    /* From the lower one up, so that the division rounds down. Heights are at most 2^18 apart, and
+     * ways, which are multiples of 16, below 2^18 in all: products stay below 2^32. */
+    bool falls = height_ahead < height_behind;
+    uint32_t rise = (uint32_t)fix_abs(height_ahead - height_behind);
+    uint32_t whole = (ahead + behind) >> 4;
+    uint32_t part = (falls ? ahead : behind) >> 4;
+    return (int32_t)((rise * part + whole / 2) / whole) + fix_min(height_ahead, height_behind);
 }
 
 /* Makes corner k a vertex, unless a line ends there. */

@@ -58,6 +58,21 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
     return status;
 }
 
+/* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits. Counted
+ * from the lowest height, so that the division rounds down.
+ */
+bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
+{
+    uint32_t cell = yb_unit_64th_m(map->cell);
+    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(map->unit) + rest_64th_m;
+    int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
+    if (above < 0)
+        return false;
+    uint64_t z_q8 = (uint64_t)above / cell;
+    *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
+    return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
+}
+
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */
 static uint8_t crc8(uint8_t crc, uint8_t byte)
 {

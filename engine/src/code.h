@@ -20,6 +20,11 @@ enum {
 YB_MUST_CHECK yb_status_t paper_take(yb_load_t *load, uint8_t byte);
 YB_MUST_CHECK yb_status_t compact_take(yb_load_t *load, uint8_t byte);
 
+/* From units above the base to q8 steps; rest_64th_m is what base_m leaves of the base. False: too
+ * low or too high.
+ */
+bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height);
+
 /* Get ready for the byte after the first one. */
 void paper_begin(yb_load_t *load);
 void compact_begin(yb_load_t *load);

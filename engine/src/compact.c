@@ -13,6 +13,7 @@ enum element {
     UNIFORM, /* one of n, all alike */
     BIT,
     NUMBER,
+    REST, /* of a number: the bits within its class */
     TURN
 };
 
@@ -110,9 +111,8 @@ static void ask(yb_load_t *load, int field)
     load->state = (uint8_t)field;
     load->element = yb_rom_u8(&question[field].element);
     load->at = (uint16_t)(load->at + yb_rom_u8(&question[field].argument));
-    load->value = load->element == TURN ? 1 : 0;
+    load->value = 1; /* before the bits of what has some */
     load->classes = 0;
-    load->left = 0;
 }
 
 static int decide(yb_load_t *load, int model_index)
@@ -139,27 +139,6 @@ static uint16_t decide_uniform(yb_load_t *load, uint32_t count)
     return (uint16_t)value;
 }
 
-/* First the class, in unary, then the bits within it. True when the number is there. */
-static bool decide_number(yb_load_t *load)
-{
-    if (load->left == 0) {
-        int model = load->at + (int)fix_min(load->classes, NUMBER_MODELS - 1);
-        if (load->classes < MOST_CLASS && decide(load, model) != 0) {
-            load->classes++;
-            return false;
-        }
-        load->left = (uint8_t)(load->classes + 1);
-        load->value = 1;
-    } else {
-        load->value = (uint16_t)(load->value << 1 | decide_uniform(load, 2));
-    }
-    load->left--;
-    if (load->left > 0)
-        return false;
-    load->value--;
-    return true;
-}
-
 /* One decision. True when the element is complete in load->value. */
 static bool decide_element(yb_load_t *load)
 {
@@ -170,15 +149,27 @@ static bool decide_element(yb_load_t *load)
     case BIT:
         load->value = (uint16_t)decide(load, load->at);
         return true;
-    case NUMBER:
-        return decide_number(load);
-    default:
+    case TURN:
         load->value = (uint16_t)(load->value << 1 | decide(load, load->at + load->value - 1));
         if (load->value < 8)
             return false;
         load->value -= 8;
         return true;
+    case NUMBER: /* the class, in unary */
+        if (load->classes < MOST_CLASS &&
+            decide(load, load->at + (int)fix_min(load->classes, NUMBER_MODELS - 1)) != 0) {
+            load->classes++;
+            return false;
+        }
+        load->element = REST;
+        break;
+    default:
+        load->value = (uint16_t)(load->value << 1 | decide_uniform(load, 2));
     }
+    if (load->value >> load->classes == 0)
+        return false;
+    load->value--;
+    return true;
 }
 
 /* --- Header --------------------------------------------------------------------------------- */
@@ -544,22 +535,6 @@ static int take_height(yb_load_t *load, int value)
 
 /* --- The end -------------------------------------------------------------------------------- */
 
-/* From units above the base to q8 steps; rest_64th_m is what base_m leaves of the base. Units are
- * below 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits. Counted from the
- * lowest height, so that the division rounds down. False: too low or too high.
- */
-static bool settle_height(const yb_load_t *load, uint32_t rest_64th_m, int32_t *height)
-{
-    uint32_t cell = yb_unit_64th_m(load->map->cell);
-    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(load->map->unit) + rest_64th_m;
-    int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
-    if (above < 0)
-        return false;
-    uint64_t z_q8 = (uint64_t)above / cell;
-    *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
-    return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
-}
-
 static yb_status_t end_relief(yb_load_t *load)
 {
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
@@ -568,12 +543,12 @@ static yb_status_t end_relief(yb_load_t *load)
     uint32_t rest = (uint32_t)base_64th_m & 63;
     load->map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - 32768);
     load->map->seed = load->recent >> 8 & 127;
-    good = good && settle_height(load, rest, &load->frame_height);
+    good = good && settle_height(load->map, rest, &load->frame_height);
     for (int i = 0; i < 4 && good; i++)
         good = load->corner_height[i] == UNKNOWN_HEIGHT ||
-               settle_height(load, rest, &load->corner_height[i]);
+               settle_height(load->map, rest, &load->corner_height[i]);
     for (int i = 0; i < load->point_count && good; i++)
-        good = settle_height(load, rest, &load->map->vertex[i].z_q8);
+        good = settle_height(load->map, rest, &load->map->vertex[i].z_q8);
     return good ? YB_OK : YB_ERR_CORRUPT;
 }
 

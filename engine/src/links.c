@@ -151,45 +151,38 @@ static int32_t distance(const yb_load_t *load, int p, int a, int b)
     return fix_abs(orientation(load, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
 }
 
-/* The nearest way from p to the region's lines of height h. */
-static int32_t shortest_way(const yb_load_t *load, int p, int32_t h)
-{
-    int32_t shortest = INT32_MAX;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(load, c, h))
-            continue;
-        for (int k = 0; k < load->contour[c].count; k++)
-            shortest = fix_min(shortest, edge_length(load, p, load->contour[c].first + k));
-    }
-    return shortest;
-}
-
-/* A point and how far it is from a slope line. */
+/* A search among the points of the region's lines of height h. */
 typedef struct {
-    int32_t off;
-    int point; /* -1: none */
-} near_t;
+    int32_t h;
+    int from, peak; /* the slope line: from this point to its peak; none, if it is the point */
+    int32_t far;    /* points farther from the first one do not count */
+    int32_t off;    /* what was found last: how far it is from the slope line, or from the point, */
+    int point;      /* and which it is; -1: none */
+} search_t;
 
-/* The point of the region's lines of height h that is nearest to the segment from p to its peak and
- * comes after `last`, of those that are not farther from p than `far`.
- */
-static near_t next_near(const yb_load_t *load, int p, int peak, int32_t h, int32_t far,
-                        near_t last)
+/* The nearest point that comes after the last one found. */
+static void find_next(const yb_load_t *load, search_t *search)
 {
-    near_t nearest = {INT32_MAX, -1};
+    int32_t off = INT32_MAX;
+    int point = -1;
     for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(load, c, h))
+        if (!bounds_at(load, c, search->h))
             continue;
-        for (int k = 0; k < load->contour[c].count; k++) {
-            int q = load->contour[c].first + k;
-            if (edge_length(load, p, q) > far)
+        int end = load->contour[c].first + load->contour[c].count;
+        for (int q = load->contour[c].first; q < end; q++) {
+            int32_t d = edge_length(load, search->from, q);
+            if (d > search->far)
                 continue;
-            int32_t off = distance(load, q, p, peak);
-            if ((off > last.off || (off == last.off && q > last.point)) && off < nearest.off)
-                nearest = (near_t){off, q};
+            if (search->peak != search->from)
+                d = distance(load, q, search->from, search->peak);
+            if ((d > search->off || (d == search->off && q > search->point)) && d < off) {
+                off = d;
+                point = q;
+            }
         }
     }
-    return nearest;
+    search->off = off;
+    search->point = point;
 }
 
 /* Links p to the next line where the segment to its peak comes nearest to a point of it. Only to
@@ -201,17 +194,18 @@ static yb_status_t link_down(yb_load_t *load, int p, int line)
     int s = ruler_of(load, p, line);
     if (s < 0)
         return YB_OK;
-    int peak = load->contour[s].first;
-    int32_t h = height_of(load, line_before(load, s));
-    int32_t far = shortest_way(load, p, h);
-    far += far >> 2;
-    near_t near = {-1, -1};
+    search_t search = {
+        .h = height_of(load, line_before(load, s)), .from = p, .peak = p, .far = INT32_MAX, .off = -1};
+    find_next(load, &search);
+    search.far = search.off + (search.off >> 2);
+    search.peak = load->contour[s].first;
+    search.off = -1;
     for (int tries = 0; tries < MOST_TRIES; tries++) {
-        near = next_near(load, p, peak, h, far, near);
-        if (near.point < 0)
+        find_next(load, &search);
+        if (search.point < 0)
             return YB_OK;
-        if (mesh_sees(load, p, near.point))
-            return mesh_force_edge(load, p, near.point);
+        if (mesh_sees(load, p, search.point))
+            return mesh_force_edge(load, p, search.point);
     }
     return YB_OK;
 }

@@ -23,16 +23,6 @@ enum {
     FLAG_RESERVED = 8
 };
 
-/* Height in q8 of a coded one: units times metres per unit over metres per step, rounded.
- * 2^16 * 2^12 * 2^15 * 2^8 = 2^51 fits easily; the divisor is at least 1.
- */
-static int32_t height_q8(const yb_load_t *load, uint32_t coded)
-{
-    uint64_t cell = yb_unit_64th_m(load->map->cell);
-    uint64_t height = ((uint64_t)coded * yb_unit_64th_m(load->map->unit) * 256 + cell / 2) / cell;
-    return height > YB_MAX_HEIGHT_Q8 ? -1 : (int32_t)height;
-}
-
 static yb_status_t take_header(yb_load_t *load, uint8_t byte)
 {
     const uint8_t *h = load->header;
@@ -66,8 +56,8 @@ static yb_status_t take_header(yb_load_t *load, uint8_t byte)
 static yb_status_t take_frame_height(yb_load_t *load, uint32_t coded)
 {
     uint32_t corners = load->flags >> 4; /* SW SE NE NW from bit 3 down */
-    int32_t height = height_q8(load, coded);
-    if (height < 0)
+    int32_t height = (int32_t)coded;
+    if (!settle_height(load->map, 0, &height))
         return YB_ERR_CORRUPT;
     if (corners == 0) {
         load->frame_height = height;
@@ -135,12 +125,10 @@ static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 
 static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 {
-    int32_t height = height_q8(load, coded);
-    if (height < 0)
-        return YB_ERR_CORRUPT;
-    load->map->vertex[load->map->vertex_count].z_q8 = height;
+    int32_t *height = &load->map->vertex[load->map->vertex_count].z_q8;
+    *height = (int32_t)coded;
     load->state = START;
-    return YB_MORE;
+    return settle_height(load->map, 0, height) ? YB_MORE : YB_ERR_CORRUPT;
 }
 
 /* Six bits as a signed number, times the coded shift. */

@@ -208,7 +208,7 @@ typedef struct {
     /* private: the decoder. Bytes first, then the smaller numbers: the shortest instructions of
      * small processors reach no farther. */
     uint8_t part, crc, section;
-    uint8_t state, element, classes, left;
+    uint8_t state, element, classes;
     uint8_t spacing, interval, columns, rows;
     uint8_t sector, turn_context, length_context, corner_at;
     bool open, narrow;
