@@ -19,7 +19,7 @@ int origin_of(const yb_load_t *load, half_t e)
 
 int end_of(const yb_load_t *load, half_t e)
 {
-    return origin_of(load, next_of(e));
+    return load->map->triangle[triangle_of(e)][next3(e & 3)];
 }
 
 int apex_of(const yb_load_t *load, half_t e)

@@ -69,10 +69,11 @@ static void flip(yb_load_t *load, half_t e)
     put_facet(load, u, &q);
 }
 
-/* Does d lie inside the circle through a, b, c (counter-clockwise)? Differences in 1/64 steps are
- * within 2^14, squares of length 2^29, areas 2^29: each of the three terms is below 2^58.
+/* Does d lie inside the circle through the corners of a triangle? Above 0: yes, 0: on it. Differences
+ * in 1/64 steps are within 2^14, squares of length 2^29, areas 2^29: each of the three terms is
+ * below 2^58.
  */
-static bool in_circle(const yb_load_t *load, const int corner[3], int d)
+static int64_t in_circle(const yb_load_t *load, const yb_index_t corner[3], int d)
 {
     const yb_vertex_t *o = vertex_of(load, d);
     int32_t x[3];
@@ -90,9 +91,7 @@ static bool in_circle(const yb_load_t *load, const int corner[3], int d)
         j = k;
         k = i;
     }
-    if (sum != 0)
-        return sum > 0;
-    return fix_min(corner[2], d) < fix_min(corner[0], corner[1]);
+    return sum;
 }
 
 /* Is an edge to be flipped? */
@@ -100,8 +99,11 @@ static bool illegal(const yb_load_t *load, half_t e)
 {
     if (entry_of(load, e) >= NO_TRIANGLE) /* the frame, or marked */
         return false;
-    const int corner[3] = {origin_of(load, e), end_of(load, e), apex_of(load, e)};
-    return in_circle(load, corner, apex_of(load, twin_of(load, e)));
+    int d = apex_of(load, twin_of(load, e));
+    int64_t inside = in_circle(load, load->map->triangle[triangle_of(e)], d);
+    if (inside != 0)
+        return inside > 0;
+    return fix_min(apex_of(load, e), d) < fix_min(origin_of(load, e), end_of(load, e));
 }
 
 /* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
