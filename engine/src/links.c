@@ -11,20 +11,23 @@ enum {
     MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
-int32_t height_of(const yb_load_t *load, int contour)
+int32_t height_of(const yb_load_t *load, const yb_contour_t *contour)
 {
-    return first_of(load, contour)->z_q8;
+    return height_at(load, contour->first);
 }
 
-bool bounds(const yb_load_t *load, int contour)
+bool bounds(const yb_load_t *load, const yb_contour_t *contour)
 {
-    const yb_contour_t *c = &load->contour[contour];
-    return is_line(c) && (c->left == load->here || c->right == load->here);
+    return is_line(contour) && (contour->left == load->here || contour->right == load->here);
 }
 
-bool bounds_at(const yb_load_t *load, int contour, int32_t h)
+const yb_contour_t *line_from(const yb_load_t *load, const yb_contour_t *contour)
 {
-    return bounds(load, contour) && height_of(load, contour) == h;
+    for (; contour < load->contour + load->contour_count; contour++) {
+        if (bounds(load, contour))
+            return contour;
+    }
+    return NULL;
 }
 
 /* Finds for every other region which line of this one leads to it. */
@@ -32,66 +35,67 @@ static void look_beyond(yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
         load->way_to[r] = NOWHERE;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (bounds(load, c)) {
-            const yb_contour_t *line = &load->contour[c];
-            load->way_to[line->left == load->here ? line->right : line->left] = (yb_index_t)c;
-        }
+    const yb_contour_t *line = load->contour;
+    while ((line = line_from(load, line)) != NULL) {
+        int beyond = line->left == load->here ? line->right : line->left;
+        load->way_to[beyond] = (yb_index_t)number_of(load, line);
+        line++;
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
     bool changed = true;
     for (bool back = false; changed; back = !back) {
         changed = false;
         for (int k = 0; k < load->contour_count; k++) {
-            int c = back ? load->contour_count - 1 - k : k;
-            const yb_contour_t *line = &load->contour[c];
-            if (!is_line(line) || bounds(load, c))
+            line = &load->contour[back ? load->contour_count - 1 - k : k];
+            if (!is_line(line) || bounds(load, line))
                 continue;
-            yb_index_t l = load->way_to[line->left];
-            yb_index_t r = load->way_to[line->right];
-            if (l == r)
+            yb_index_t *left = &load->way_to[line->left];
+            yb_index_t *right = &load->way_to[line->right];
+            if (*left == *right)
                 continue;
-            load->way_to[l == NOWHERE ? line->left : line->right] = l == NOWHERE ? r : l;
+            if (*left == NOWHERE)
+                *left = *right;
+            else
+                *right = *left;
             changed = true;
         }
     }
 }
 
-int line_before(const yb_load_t *load, int s)
+const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot)
 {
-    const yb_contour_t *spot = &load->contour[s];
-    if (is_line(spot) || spot->left == load->here)
-        return NOWHERE;
-    return load->way_to[spot->left];
+    int line = load->way_to[spot->left];
+    bool here = is_line(spot) || spot->left == load->here;
+    return here || line == NOWHERE ? NULL : &load->contour[line];
 }
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
 
 /* The peak whose slope rules point p: the steepest way up from p, or down to a pit (tan θ, 5.1). In
- * a leaf (line < 0) one of those in it; else one beyond another line, if the ground goes on there
- * the way it goes to that line. -1: none.
+ * a leaf (line NULL) one of those in it; else one beyond another line, if the ground goes on there
+ * the way it goes to that line. NULL: none.
  */
-static int ruler_of(const yb_load_t *load, int p, int line)
+static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_contour_t *line)
 {
     int32_t z = height_at(load, p);
-    int ruler = -1;
+    const yb_contour_t *ruler = NULL;
+    const yb_contour_t *end = load->contour + all_contours(load);
     int32_t rise = 0;
     int32_t run = 1;
-    for (int s = 0; s < all_contours(load); s++) {
-        const yb_contour_t *spot = &load->contour[s];
-        int32_t top = height_of(load, s);
-        if (is_line(spot) || (line < 0) != (spot->left == load->here))
+    for (const yb_contour_t *spot = load->contour; spot < end; spot++) {
+        int32_t up = height_of(load, spot) - z;
+        if (is_line(spot) || (line == NULL) != (spot->left == load->here))
             continue;
-        if (line >= 0) {
-            int before = line_before(load, s);
-            int32_t h = before == NOWHERE ? z : height_of(load, before);
-            if (before == line || h == z || top == h || (h > z) != (top > h))
+        if (line != NULL) {
+            const yb_contour_t *before = line_before(load, spot);
+            int32_t way = before == NULL ? 0 : height_of(load, before) - z;
+            if (before == line || way == 0 || up == 0 || up == way || (way > 0) != (up > way))
                 continue;
         }
-        int32_t up = fix_abs(top - z);
         int32_t along = edge_length(load, p, spot->first);
+        up = fix_abs(up);
         if ((int64_t)up * run > (int64_t)rise * along) {
-            ruler = s;
+            ruler = spot;
             rise = up;
             run = along;
         }
@@ -118,20 +122,17 @@ static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 /* All of a leaf's points to its summit. First all wishes, then all links: a wish sees the mesh that
  * the others saw.
  */
-static yb_status_t fan(yb_load_t *load, int line)
+static yb_status_t fan(yb_load_t *load, const yb_contour_t *line)
 {
-    const yb_contour_t *contour = &load->contour[line];
-    for (int k = 0; k < contour->count; k++) {
-        int p = contour->first + k;
-        int s = ruler_of(load, p, -1);
-        int summit = s < 0 ? p : load->contour[s].first;
-        load->wish[p] = (yb_index_t)(s < 0 || by_a_ridge(load, p, summit) ? p : summit);
+    int end = line->first + line->count;
+    for (int p = line->first; p < end; p++) {
+        const yb_contour_t *ruler = ruler_of(load, p, NULL);
+        bool linked = ruler != NULL && !by_a_ridge(load, p, ruler->first);
+        load->wish[p] = linked ? ruler->first : (yb_index_t)p;
     }
-    for (int k = 0; k < contour->count; k++) {
-        int p = contour->first + k;
+    for (int p = line->first; p < end; p++) {
         int summit = load->wish[p];
-        if (summit != p && mesh_sees(load, p, summit) &&
-            mesh_force_edge(load, p, summit) != YB_OK)
+        if (summit != p && mesh_sees(load, p, summit) && mesh_force_edge(load, p, summit) != YB_OK)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
@@ -165,11 +166,12 @@ static void find_next(const yb_load_t *load, search_t *search)
 {
     int32_t off = INT32_MAX;
     int point = -1;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(load, c, search->h))
+    const yb_contour_t *line = load->contour;
+    for (; (line = line_from(load, line)) != NULL; line++) {
+        if (height_of(load, line) != search->h)
             continue;
-        int end = load->contour[c].first + load->contour[c].count;
-        for (int q = load->contour[c].first; q < end; q++) {
+        int end = line->first + line->count;
+        for (int q = line->first; q < end; q++) {
             int32_t d = edge_length(load, search->from, q);
             if (d > search->far)
                 continue;
@@ -189,16 +191,19 @@ static void find_next(const yb_load_t *load, search_t *search)
  * points that are at most a quarter farther than the nearest: where there is none, the slope leads
  * elsewhere, whatever the peak.
  */
-static yb_status_t link_down(yb_load_t *load, int p, int line)
+static yb_status_t link_down(yb_load_t *load, int p, const yb_contour_t *line)
 {
-    int s = ruler_of(load, p, line);
-    if (s < 0)
+    const yb_contour_t *ruler = ruler_of(load, p, line);
+    if (ruler == NULL)
         return YB_OK;
-    search_t search = {
-        .h = height_of(load, line_before(load, s)), .from = p, .peak = p, .far = INT32_MAX, .off = -1};
+    search_t search = {.h = height_of(load, line_before(load, ruler)),
+                       .from = p,
+                       .peak = p,
+                       .far = INT32_MAX,
+                       .off = -1};
     find_next(load, &search);
     search.far = search.off + (search.off >> 2);
-    search.peak = load->contour[s].first;
+    search.peak = ruler->first;
     search.off = -1;
     for (int tries = 0; tries < MOST_TRIES; tries++) {
         find_next(load, &search);
@@ -222,32 +227,25 @@ static bool turns_left(const yb_load_t *load, const yb_contour_t *line)
 }
 
 /* Does the line lie round the region, or does it go from frame to frame? */
-static bool is_outer(const yb_load_t *load, int line)
+static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
 {
-    const yb_contour_t *c = &load->contour[line];
-    return c->open || (c->left == load->here) == turns_left(load, c);
+    return line->open || (line->left == load->here) == turns_left(load, line);
 }
 
 static yb_status_t apply_rules(yb_load_t *load)
 {
-    int lines = 0;
-    int line = 0;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (bounds(load, c)) {
-            lines++;
-            line = c;
-        }
-    }
-    if (lines == 1)
+    const yb_contour_t *line = line_from(load, load->contour);
+    if (line_from(load, line + 1) == NULL)
         return fan(load, line);
     look_beyond(load);
     if (saddles_add(load) != YB_OK)
         return YB_ERR_LIMIT;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(load, c) || !is_outer(load, c))
+    for (; line != NULL; line = line_from(load, line + 1)) {
+        if (!is_outer(load, line))
             continue;
-        for (int k = 0; k < load->contour[c].count; k++) {
-            if (link_down(load, load->contour[c].first + k, c) != YB_OK)
+        int end = line->first + line->count;
+        for (int p = line->first; p < end; p++) {
+            if (link_down(load, p, line) != YB_OK)
                 return YB_ERR_LIMIT;
         }
     }

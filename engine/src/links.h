@@ -4,6 +4,8 @@
 #ifndef YB_LINKS_H
 #define YB_LINKS_H
 
+#include <stddef.h>
+
 #include "mesh.h"
 
 enum {
@@ -21,22 +23,25 @@ static inline bool is_line(const yb_contour_t *contour)
     return contour->count > 1;
 }
 
-static inline const yb_vertex_t *first_of(const yb_load_t *load, int contour)
+static inline int number_of(const yb_load_t *load, const yb_contour_t *contour)
 {
-    return &load->map->vertex[load->contour[contour].first];
+    return (int)(contour - load->contour);
 }
 
 /* Its height. */
-int32_t height_of(const yb_load_t *load, int contour);
-
-/* Does this contour, as a line of height h, bound the region? */
-bool bounds_at(const yb_load_t *load, int contour, int32_t h);
+int32_t height_of(const yb_load_t *load, const yb_contour_t *contour);
 
 /* Does this contour, as a line, bound the region? */
-bool bounds(const yb_load_t *load, int contour);
+bool bounds(const yb_load_t *load, const yb_contour_t *contour);
 
-/* The line of the region behind which spot height s lies, or NOWHERE. */
-int line_before(const yb_load_t *load, int s);
+/* The first of the lines round the region among a contour and those after it, or NULL. All of them:
+ *
+ *     for (line = line_from(load, load->contour); line != NULL; line = line_from(load, line + 1))
+ */
+const yb_contour_t *line_from(const yb_load_t *load, const yb_contour_t *contour);
+
+/* The line of the region behind which a spot height lies, or NULL. */
+const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot);
 
 /* 5.1 and 7: link points between neighbouring peaks. */
 YB_MUST_CHECK yb_status_t saddles_add(yb_load_t *load);
