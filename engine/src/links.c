@@ -112,7 +112,7 @@ static bool by_a_ridge(const yb_load_t *load, int p, int summit)
     half_t first = first_spoke(load, p);
     for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
         int q = end_of(load, e);
-        if (load->region[triangle_of(e)] == load->here && entry_of(load, e) < NO_TRIANGLE &&
+        if (region_of(load, e) == load->here && entry_of(load, e) < NO_TRIANGLE &&
             height_at(load, q) == height_at(load, p) && edge_length(load, p, q) < far)
             return true;
     }

@@ -11,6 +11,11 @@ half_t last_of(half_t e)
     return (e & 3) != 0 ? e - 1 : e + 2;
 }
 
+int region_of(const yb_load_t *load, half_t e)
+{
+    return load->region[triangle_of(e)];
+}
+
 int origin_of(const yb_load_t *load, half_t e)
 {
     const yb_index_t *corner = load->map->triangle[0]; /* three a triangle, in a row */

@@ -69,6 +69,9 @@ static inline half_t halves_of(const yb_load_t *load)
     return 4 * (half_t)load->map->triangle_count;
 }
 
+/* The region that the half's triangle lies in, after regions_find. */
+int region_of(const yb_load_t *load, half_t e);
+
 int origin_of(const yb_load_t *load, half_t e);
 int end_of(const yb_load_t *load, half_t e);
 int apex_of(const yb_load_t *load, half_t e);

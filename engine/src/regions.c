@@ -44,8 +44,8 @@ yb_status_t regions_find(yb_load_t *load)
         int a = contour->first;
         contour->left = contour->right = load->region[load->star[a]];
         if (contour->count > 1) {
-            contour->left = load->region[triangle_of(spoke_to(load, a, a + 1))];
-            contour->right = load->region[triangle_of(spoke_to(load, a + 1, a))];
+            contour->left = (yb_index_t)region_of(load, spoke_to(load, a, a + 1));
+            contour->right = (yb_index_t)region_of(load, spoke_to(load, a + 1, a));
             lines++;
         }
     }

@@ -16,7 +16,7 @@ enum {
 };
 
 /* Notes which regions lie beyond a region's lines; is one of them not flat? */
-static bool look_beside(yb_load_t *load, yb_index_t region)
+static bool look_beside(yb_load_t *load, int region)
 {
     bool sloping = false;
     for (int r = 0; r < load->region_count; r++)
@@ -39,7 +39,7 @@ static int32_t rise_farther_out(const yb_load_t *load, int32_t h)
 {
     int32_t rise = 0;
     for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
-        if ((load->ground[load->region[triangle_of(e)]] & BESIDE) == 0)
+        if ((load->ground[region_of(load, e)] & BESIDE) == 0)
             continue;
         int32_t up = h - height_at(load, origin_of(load, e));
         bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
@@ -69,11 +69,11 @@ static int32_t area_at(const yb_load_t *load, half_t e)
     return side_of(load, e, vertex_of(load, apex_of(load, e)));
 }
 
-static void look_round(const yb_load_t *load, yb_index_t region, surroundings_t *found)
+static void look_round(const yb_load_t *load, int region, surroundings_t *found)
 {
     *found = (surroundings_t){0};
     for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
-        if (load->region[triangle_of(e)] != region)
+        if (region_of(load, e) != region)
             continue;
         if ((e & 3) == 0)
             found->area += area_at(load, e);
@@ -98,7 +98,7 @@ static void look_round(const yb_load_t *load, yb_index_t region, surroundings_t 
  * But between 1/8 and 7/8 of an interval, the mean rise outside; and by half of it where there is
  * no slope to go by. 0: there is no other height round about.
  */
-static int32_t rise_inside(const yb_load_t *load, yb_index_t region, int32_t h)
+static int32_t rise_inside(const yb_load_t *load, int region, int32_t h)
 {
     surroundings_t round;
     look_round(load, region, &round);
@@ -139,13 +139,13 @@ static bool is_acute(const yb_load_t *load, half_t e)
  * the chord of an empty circle. If just one of the two triangles at it is acute, the circle's
  * centre lies in that one, and so does the place. A region of one triangle has its place inside.
  */
-static spot_t widest_place(const yb_load_t *load, yb_index_t region)
+static spot_t widest_place(const yb_load_t *load, int region)
 {
     spot_t spot = {.beyond = true};
     uint32_t best = 0;
     int32_t widest = -1;
     for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
-        if (load->region[triangle_of(e)] != region)
+        if (region_of(load, e) != region)
             continue;
         bool alone = entry_of(load, e) >= NO_TRIANGLE;
         if (alone && !spot.beyond)
@@ -196,7 +196,7 @@ yb_status_t summits_add(yb_load_t *load)
         load->ground[r] = FLAT;
     for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
         if (height_at(load, origin_of(load, e)) != height_at(load, end_of(load, e)))
-            load->ground[load->region[triangle_of(e)]] = 0;
+            load->ground[region_of(load, e)] = 0;
     }
     /* A region may have to wait until its neighbour has a second height: round and round until
      * nothing changes. What stays flat then is a map of one height. */
@@ -204,7 +204,7 @@ yb_status_t summits_add(yb_load_t *load)
         changed = false;
         for (int c = 0; c < 2 * load->contour_count; c++) {
             const yb_contour_t *contour = &load->contour[c >> 1];
-            yb_index_t region = (c & 1) == 0 ? contour->left : contour->right;
+            int region = (c & 1) == 0 ? contour->left : contour->right;
             if ((load->ground[region] & FLAT) == 0 || !look_beside(load, region))
                 continue;
             int32_t h = height_at(load, contour->first);
