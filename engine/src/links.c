@@ -109,8 +109,7 @@ static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_conto
 static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 {
     int32_t far = edge_length(load, p, summit);
-    half_t first = first_spoke(load, p);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
         int q = end_of(load, e);
         if (region_of(load, e) == load->here && entry_of(load, e) < NO_TRIANGLE &&
             height_at(load, q) == height_at(load, p) && edge_length(load, p, q) < far)

@@ -76,10 +76,11 @@ half_t first_spoke(const yb_load_t *load, int v)
     }
 }
 
-half_t spoke_after(const yb_load_t *load, half_t e, half_t first)
+half_t spoke_after(const yb_load_t *load, half_t e)
 {
-    e = spoke_left(load, e);
-    return e == first ? NO_HALF : e;
+    int v = origin_of(load, e);
+    bool last = (int)load->star[v] == triangle_of(e) && !on_frame(load, vertex_of(load, v));
+    return last ? NO_HALF : spoke_left(load, e);
 }
 
 half_t spoke_to(const yb_load_t *load, int a, int b)

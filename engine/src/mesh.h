@@ -95,13 +95,12 @@ half_t twin_of(const yb_load_t *load, half_t e);
 
 /* All spokes of v, counter-clockwise:
  *
- *     half_t first = first_spoke(load, v);
- *     for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first))
+ *     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e))
  *
  * from the rightmost one if v is on the frame, from any if not.
  */
 half_t first_spoke(const yb_load_t *load, int v);
-half_t spoke_after(const yb_load_t *load, half_t e, half_t first);
+half_t spoke_after(const yb_load_t *load, half_t e);
 
 /* The spoke to the left of e, without end; NO_HALF on the frame. */
 half_t spoke_left(const yb_load_t *load, half_t e);

@@ -95,8 +95,7 @@ static int16_t slope_q11(int64_t sum, int64_t sum_z)
 static void find_slope(const yb_load_t *load, int v)
 {
     int64_t sum[3] = {0, 0, 0};
-    half_t first = first_spoke(load, v);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         int32_t right[3];
         int32_t left[3];
         find_way(load, v, end_of(load, e), right);
@@ -124,8 +123,7 @@ static void limit_slope(const yb_load_t *load, int v)
 {
     yb_vertex_t *a = &load->map->vertex[v];
     int32_t share_q15 = 32768;
-    half_t first = first_spoke(load, v);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         for (int i = 0; i < 2; i++) {
             const yb_vertex_t *b = vertex_of(load, i == 0 ? end_of(load, e) : apex_of(load, e));
             int32_t s =

@@ -70,8 +70,7 @@ static uint32_t steepness(const yb_load_t *load, int m)
     int p = load->branch[m].parent;
     int32_t up = height_at(load, p) - height_at(load, m);
     int32_t slope = 0;
-    half_t first = first_spoke(load, p);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
         for (int k = 0; k < 2; k++) {
             int q = k == 0 ? end_of(load, e) : apex_of(load, e);
             int32_t on = height_at(load, q) - height_at(load, p);
@@ -126,8 +125,7 @@ static bool begins_branch(const yb_load_t *load, bridge_t *bridge)
 static bool find_beginning(const yb_load_t *load, int v, bridge_t *next)
 {
     next->key = UINT32_MAX;
-    half_t first = first_spoke(load, v);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         for (int k = 0; k < 2; k++) {
             half_t side = k == 0 ? e : last_of(e);
             bridge_t bridge = {side, edge_key(load, side), v, v};
@@ -161,8 +159,7 @@ static yb_status_t begin_branches(yb_load_t *load)
 static bool find_bridge(const yb_load_t *load, int v, bridge_t *next)
 {
     next->key = UINT32_MAX;
-    half_t first = first_spoke(load, v);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         half_t opposite = next_of(e);
         uint32_t key = edge_key(load, opposite);
         if (key < next->key && is_bridge(load, opposite))
@@ -247,8 +244,7 @@ static int32_t meeting_height(const yb_load_t *load, int m)
 static uint32_t way_to_contour(const yb_load_t *load, int v)
 {
     int32_t way = 0;
-    half_t first = first_spoke(load, v);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         int side = end_of(load, e);
         if (side < load->first_skeleton && height_at(load, side) == height_at(load, v))
             way = fix_max(way, edge_length(load, v, side));

@@ -75,21 +75,17 @@ static void flip(yb_load_t *load, half_t e)
  */
 static int64_t in_circle(const yb_load_t *load, const yb_index_t corner[3], int d)
 {
-    const yb_vertex_t *o = vertex_of(load, d);
-    int32_t x[3];
-    int32_t y[3];
-    for (int i = 0; i < 3; i++) {
-        const yb_vertex_t *v = vertex_of(load, corner[i]);
-        x[i] = fix_minus(v->x_q8, o->x_q8) >> 2;
-        y[i] = fix_minus(v->y_q8, o->y_q8) >> 2;
-    }
+    int32_t way[3][3];
+    for (int i = 0; i < 3; i++)
+        find_way(load, d, corner[i], way[i]);
     int64_t sum = 0;
-    int j = 1;
-    int k = 2;
+    const int32_t *b = way[1];
+    const int32_t *c = way[2];
     for (int i = 0; i < 3; i++) {
-        sum += (int64_t)(x[i] * x[i] + y[i] * y[i]) * (x[j] * y[k] - x[k] * y[j]);
-        j = k;
-        k = i;
+        const int32_t *a = way[i];
+        sum += (int64_t)(a[0] * a[0] + a[1] * a[1]) * (b[0] * c[1] - c[0] * b[1]);
+        b = c;
+        c = a;
     }
     return sum;
 }
@@ -233,8 +229,7 @@ static void clear_fan(yb_load_t *load, int v, int from, int to)
  */
 static half_t towards(const yb_load_t *load, int a, int b)
 {
-    half_t first = first_spoke(load, a);
-    for (half_t e = first; e != NO_HALF; e = spoke_after(load, e, first)) {
+    for (half_t e = first_spoke(load, a); e != NO_HALF; e = spoke_after(load, e)) {
         int right = end_of(load, e);
         int left = apex_of(load, e);
         if (right == b || left == b ||
