@@ -7,17 +7,21 @@ static yb_status_t check_contour(const yb_load_t *load, yb_contour_t *contour)
     const yb_vertex_t *first = vertex_of(load, contour->first);
     const yb_vertex_t *last = first + contour->count - 1;
     contour->open = contour->count > 1 && on_frame(load, first) && on_frame(load, last);
-    int inner_from = contour->open ? 1 : 0;
-    for (int i = inner_from; i < contour->count - inner_from; i++) {
-        if (on_frame(load, first + i))
+    if (contour->count == 2) {
+        /* A straight line across: not along one side, where it would bound nothing. */
+        yb_vertex_t middle = {.x_q8 = fix_middle(first->x_q8, last->x_q8),
+                              .y_q8 = fix_middle(first->y_q8, last->y_q8)};
+        return contour->open && !on_frame(load, &middle) ? YB_OK : YB_ERR_CORRUPT;
+    }
+    if (contour->open) {
+        first++;
+        last--;
+    }
+    for (; first <= last; first++) {
+        if (on_frame(load, first))
             return YB_ERR_CORRUPT;
     }
-    if (contour->count != 2)
-        return YB_OK;
-    /* A straight line across: not along one side, where it would bound nothing. */
-    bool along = (first->x_q8 == last->x_q8 && (first->x_q8 == 0 || first->x_q8 == load->map->east_q8)) ||
-                 (first->y_q8 == last->y_q8 && (first->y_q8 == 0 || first->y_q8 == load->map->north_q8));
-    return contour->open && !along ? YB_OK : YB_ERR_CORRUPT;
+    return YB_OK;
 }
 
 /* Way along the frame, counter-clockwise from the south-west corner, in q8 steps. */
@@ -73,20 +77,14 @@ static yb_status_t place_corner(yb_load_t *load, int k)
     uint16_t x = k == 1 || k == 2 ? load->map->east_q8 : 0;
     uint16_t y = k >= 2 ? load->map->north_q8 : 0;
     for (int i = 0; i < load->point_count; i++) {
-        if (load->map->vertex[i].x_q8 == x && load->map->vertex[i].y_q8 == y) {
+        const yb_vertex_t *point = vertex_of(load, i);
+        if (point->x_q8 == x && point->y_q8 == y) {
             load->corner[k] = (yb_index_t)i;
             return load->corner_height[k] == UNKNOWN_HEIGHT ? YB_OK : YB_ERR_CORRUPT;
         }
     }
-    if (load->map->vertex_count >= load->vertices_promised)
-        return YB_ERR_CORRUPT;
-    yb_vertex_t *v = &load->map->vertex[load->map->vertex_count];
-    v->x_q8 = x;
-    v->y_q8 = y;
-    v->z_q8 = load->corner_height[k];
     load->corner[k] = (yb_index_t)load->map->vertex_count;
-    load->map->vertex_count++;
-    return YB_OK;
+    return mesh_add_vertex(load, x, y, load->corner_height[k]) == YB_OK ? YB_OK : YB_ERR_CORRUPT;
 }
 
 yb_status_t border_close(yb_load_t *load)

@@ -353,14 +353,14 @@ static int take_way(yb_load_t *load, int way)
     int half = load->columns + load->rows;
     way = (load->start_way + way) % (2 * half);
     way = way < 0 ? way + 2 * half : way;
-    load->start_way = (int16_t)way;
+    load->start_way = way;
     bool far = way >= half;
     way -= far ? half : 0;
     int x = (int)fix_min(way, load->columns);
     int y = way - x;
-    load->last = (yb_ring_t){1, (int16_t)(((way < load->columns ? 2 : 4) + (far ? 4 : 0)) & 7)};
-    load->x = (int16_t)(far ? load->columns - x : x);
-    load->y = (int16_t)(far ? load->rows - y : y);
+    load->last = (yb_ring_t){1, ((way < load->columns ? 2 : 4) + (far ? 4 : 0)) & 7};
+    load->x = far ? load->columns - x : x;
+    load->y = far ? load->rows - y : y;
     load->turn_context = TURN_INWARD;
     return LINE_HEIGHT;
 }
@@ -380,16 +380,16 @@ static int take_place(yb_load_t *load, int rest)
     int dx = 0;
     int dy = 0;
     int place = (ring_ahead(load->last, n) + load->sector * n + rest) % (8 * n);
-    load->last = (yb_ring_t){(int16_t)n, (int16_t)place};
+    load->last = (yb_ring_t){n, place};
     ring_step(load->last, &dx, &dy);
     load->turn_context = (uint8_t)turn_context(load->sector);
     load->length_context = (uint8_t)length_context(n);
-    load->x = (int16_t)(load->x + dx);
-    load->y = (int16_t)(load->y + dy);
+    load->x = load->x + dx;
+    load->y = load->y + dy;
     yb_contour_t *contour = &load->contour[load->contour_count - 1];
     if (load->open) { /* it ends where it would leave the map */
-        load->x = (int16_t)fix_clamp(load->x, 0, load->columns);
-        load->y = (int16_t)fix_clamp(load->y, 0, load->rows);
+        load->x = (int)fix_clamp(load->x, 0, load->columns);
+        load->y = (int)fix_clamp(load->y, 0, load->rows);
     }
     contour->count++;
     if (!add_point(load, load->map->vertex[contour->first].z_q8))
@@ -414,17 +414,17 @@ static int take_line(yb_load_t *load, int value)
         load->open = value != 0;
         return load->open ? WAY : START_X;
     case START_X:
-        load->start_x = (int16_t)(load->start_x + signed_of(value));
+        load->start_x = load->start_x + signed_of(value);
         return START_Y;
     case START_Y:
-        load->start_y = (int16_t)(load->start_y + signed_of(value));
+        load->start_y = load->start_y + signed_of(value);
         return take_start(load);
     case WAY:
         return take_way(load, signed_of(value));
     case LENGTH:
         if (value >= 255)
             return YB_ERR_CORRUPT;
-        load->length = (int16_t)(value + 1);
+        load->length = value + 1;
         load->at = (uint16_t)(load->turn_context * TURN_MODELS);
         return SECTOR;
     case SECTOR:
@@ -475,8 +475,8 @@ static int take_cell(yb_load_t *load, int value)
     load->cell += (uint32_t)value;
     if (load->cell >= inner_places(load))
         return YB_ERR_CORRUPT;
-    load->x = (int16_t)(1 + load->cell % columns);
-    load->y = (int16_t)(1 + load->cell / columns);
+    load->x = (int)(1 + load->cell % columns);
+    load->y = (int)(1 + load->cell / columns);
     load->cell++;
     load->spots--;
     return SPOT_HEIGHT;
@@ -516,11 +516,11 @@ static int take_height(yb_load_t *load, int value)
 {
     int state = load->state;
     if ((state - LINE_HEIGHT) % 2 == 0) {
-        load->height = (int16_t)value;
+        load->height = value;
         if (value != 0)
             return state + 1;
     } else if (value != 0) {
-        load->height = (int16_t)-load->height;
+        load->height = -load->height;
     }
     bool of_line = state <= LINE_DOWN;
     int32_t units =

@@ -180,7 +180,7 @@ typedef struct {
  * ends, 0 … 8n - 1, counter-clockwise from the east. Private to the compact profile.
  */
 typedef struct {
-    int16_t length, place;
+    int length, place;
 } yb_ring_t;
 
 /* A point of a skeleton, as large as a contour. Private to loading. */
@@ -204,13 +204,12 @@ typedef struct {
     uint16_t first_skeleton; /* … and from here on points of skeletons */
     uint16_t relief_size;    /* bytes of the code before its sections, or its check byte */
     uint8_t profile;
-    yb_index_t here; /* private: the region whose rules are applied */
     /* private: the decoder. Bytes first, then the smaller numbers: the shortest instructions of
      * small processors reach no farther. */
     uint8_t part, crc, section;
     uint8_t state, element, classes;
     uint8_t spacing, interval, columns, rows;
-    uint8_t sector, turn_context, length_context, corner_at;
+    uint8_t sector, turn_context, length_context, corner_at, gain;
     bool open, narrow;
     uint16_t at; /* how far the state has come; the element's model */
     uint16_t value, recent, lines, spots, run;
@@ -218,17 +217,23 @@ typedef struct {
     uint16_t vertices_promised;
     uint16_t section_at, section_size, size;
     yb_status_t result;
-    int16_t x, y, start_x, start_y, start_way, length, height;
-    yb_ring_t last; /* step */
     yb_map_t *map; /* what is loaded */
-    uint32_t range, code, cell;
-    int32_t base;
-    int32_t level_q8, other_q8; /* saddles.c: of lines with passes between, and where those lead */
-    uint8_t gain;
-    /* of the paper profile (paper.c) */
-    uint8_t flags;
-    uint8_t bits_held;
-    uint32_t bits;
+    union {
+        struct { /* compact.c */
+            uint32_t range, code, cell;
+            int32_t base;
+            int x, y, start_x, start_y, start_way, length, height;
+            yb_ring_t last; /* step */
+        };
+        struct { /* paper.c */
+            uint32_t bits;
+            uint8_t bits_held, flags;
+        };
+        struct { /* links.c, saddles.c: lines with passes between, where those lead to; */
+            int32_t level_q8, other_q8;
+            yb_index_t here; /* the region whose rules are applied */
+        };
+    };
     /* private: what both find */
     int32_t corner_height[4];
     int32_t frame_height;
