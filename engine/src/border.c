@@ -9,8 +9,9 @@ static yb_status_t check_contour(const yb_load_t *load, yb_contour_t *contour)
     contour->open = contour->count > 1 && on_frame(load, first) && on_frame(load, last);
     if (contour->count == 2) {
         /* A straight line across: not along one side, where it would bound nothing. */
-        yb_vertex_t middle = {.x_q8 = fix_middle(first->x_q8, last->x_q8),
-                              .y_q8 = fix_middle(first->y_q8, last->y_q8)};
+        yb_vertex_t middle;
+        middle.x_q8 = fix_middle(first->x_q8, last->x_q8);
+        middle.y_q8 = fix_middle(first->y_q8, last->y_q8);
         return contour->open && !on_frame(load, &middle) ? YB_OK : YB_ERR_CORRUPT;
     }
     if (contour->open) {
@@ -39,10 +40,10 @@ static uint32_t way_of(const yb_load_t *load, const yb_vertex_t *v)
 }
 
 /* The height at an unknown corner: between the nearest known heights along the frame, both ways. */
-static int32_t interpolate(const yb_load_t *load, yb_index_t corner)
+static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
 {
     uint32_t round = 2 * ((uint32_t)load->map->east_q8 + load->map->north_q8);
-    uint32_t way = way_of(load, &load->map->vertex[corner]);
+    uint32_t way = way_of(load, corner);
     uint32_t ahead = round;
     uint32_t behind = round;
     int32_t height_ahead = load->frame_height;
@@ -100,9 +101,9 @@ yb_status_t border_close(yb_load_t *load)
     /* All from what the code says, none from another's interpolation: first compute, then store. */
     int32_t height[4];
     for (int k = 0; k < 4; k++) {
-        yb_index_t corner = load->corner[k];
-        bool known = load->map->vertex[corner].z_q8 != UNKNOWN_HEIGHT;
-        height[k] = known ? load->map->vertex[corner].z_q8 : interpolate(load, corner);
+        const yb_vertex_t *corner = vertex_of(load, load->corner[k]);
+        bool known = corner->z_q8 != UNKNOWN_HEIGHT;
+        height[k] = known ? corner->z_q8 : interpolate(load, corner);
     }
     for (int k = 0; k < 4; k++)
         load->map->vertex[load->corner[k]].z_q8 = height[k];

@@ -7,7 +7,16 @@
 #include "mesh.h"
 
 enum state {
-    HEADER,
+    FLAGS,
+    CONTOURS,
+    VERTICES,
+    EAST,
+    NORTH,
+    CELL,
+    UNIT,
+    BASE,
+    SEED,
+    GAIN, /* the last of the header */
     FRAME_HEIGHTS,
     COUNTS,
     DIMENSION,
@@ -18,37 +27,59 @@ enum state {
 };
 
 enum {
-    HEADER_BYTES = 14,
     FLAG_STRAIGHT = 4,
     FLAG_RESERVED = 8
 };
 
-static yb_status_t take_header(yb_load_t *load, uint8_t byte)
+static yb_status_t check_header(const yb_load_t *load)
 {
-    const uint8_t *h = load->header;
-    load->header[load->at++] = byte;
-    if (load->at < HEADER_BYTES)
-        return YB_MORE;
-    load->flags = h[1];
-    load->contour_count = h[2];
-    load->vertices_promised = h[3];
-    load->map->east_q8 = (uint16_t)((unsigned)h[4] << 8);
-    load->map->north_q8 = (uint16_t)((unsigned)h[5] << 8);
-    load->map->cell = (uint16_t)((unsigned)h[6] << 8 | h[7]);
-    load->map->unit = (uint16_t)((unsigned)h[8] << 8 | h[9]);
-    load->map->base_m = (int16_t)((unsigned)h[10] << 8 | h[11]);
-    load->map->seed = h[12];
-    load->gain = h[13];
-    load->map->smooth = (load->flags & FLAG_STRAIGHT) == 0;
-    if ((load->flags & FLAG_RESERVED) != 0 || h[3] < 4 || h[4] == 0 || h[5] == 0 ||
-        (load->map->cell & 0xfff) == 0 || (load->map->unit & 0xfff) == 0)
+    const yb_map_t *map = load->map;
+    if ((load->flags & FLAG_RESERVED) != 0 || load->vertices_promised < 4 || map->east_q8 == 0 ||
+        map->north_q8 == 0 || (map->cell & 0xfff) == 0 || (map->unit & 0xfff) == 0)
         return YB_ERR_CORRUPT;
 #if YB_MAX_VERTICES < 255
     if (load->vertices_promised > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
 #endif
-    load->at = 0;
-    load->state = FRAME_HEIGHTS;
+    return YB_MORE;
+}
+
+static yb_status_t take_header(yb_load_t *load, uint32_t field)
+{
+    yb_map_t *map = load->map;
+    switch ((enum state)load->state++) {
+    case FLAGS:
+        load->flags = (uint8_t)field;
+        map->smooth = (field & FLAG_STRAIGHT) == 0;
+        break;
+    case CONTOURS:
+        load->contour_count = (uint16_t)field;
+        break;
+    case VERTICES:
+        load->vertices_promised = (uint16_t)field;
+        break;
+    case EAST:
+        map->east_q8 = (uint16_t)(field << 8);
+        break;
+    case NORTH:
+        map->north_q8 = (uint16_t)(field << 8);
+        break;
+    case CELL:
+        map->cell = (uint16_t)field;
+        break;
+    case UNIT:
+        map->unit = (uint16_t)field;
+        break;
+    case BASE:
+        map->base_m = (int16_t)field;
+        break;
+    case SEED:
+        map->seed = (uint8_t)field;
+        break;
+    default:
+        load->gain = (uint8_t)field;
+        return check_header(load);
+    }
     return YB_MORE;
 }
 
@@ -146,9 +177,9 @@ static yb_status_t take_step(yb_load_t *load, uint32_t twelve)
 
 static yb_status_t take_field(yb_load_t *load, uint32_t field)
 {
+    if (load->state <= GAIN)
+        return take_header(load, field);
     switch ((enum state)load->state) {
-    case HEADER:
-        return take_header(load, (uint8_t)field);
     case FRAME_HEIGHTS:
         return take_frame_height(load, field);
     case COUNTS:
@@ -161,23 +192,23 @@ static yb_status_t take_field(yb_load_t *load, uint32_t field)
         return take_point(load, (int32_t)(field >> 8), (int32_t)(field & 255));
     case STEP:
         return take_step(load, field);
-    case END:
-        break;
+    default:
+        return YB_ERR_CORRUPT;
     }
-    return YB_ERR_CORRUPT;
 }
 
 void paper_begin(yb_load_t *load)
 {
-    load->at = 1;                 /* of the header */
     load->section = SECTION_LAST; /* none follow */
 }
 
 yb_status_t paper_take(yb_load_t *load, uint8_t byte)
 {
     static const uint8_t width[] YB_ROM = {
-        [HEADER] = 8,  [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8,
-        [HEIGHT] = 16, [START] = 16,         [STEP] = 12,  [END] = 8,
+        [FLAGS] = 8,  [CONTOURS] = 8,  [VERTICES] = 8, [EAST] = 8,           [NORTH] = 8,
+        [CELL] = 16,  [UNIT] = 16,     [BASE] = 16,    [SEED] = 8,           [GAIN] = 8,
+        [COUNTS] = 8, [DIMENSION] = 8, [HEIGHT] = 16,  [FRAME_HEIGHTS] = 16, [START] = 16,
+        [STEP] = 12,  [END] = 8,
     };
     load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
     load->bits_held = (uint8_t)(load->bits_held + 8);

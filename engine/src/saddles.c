@@ -180,8 +180,9 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair, bool *joined)
     int32_t wide = gap.enters - gap.leaves;
     int32_t at = gap.leaves + (int32_t)(wide * weight_b / (weight_a + weight_b + 1));
     at = fix_clamp(at, gap.leaves + wide / 8, gap.enters - wide / 8);
-    yb_vertex_t link = {.x_q8 = part_way(a->x_q8, b->x_q8, at),
-                        .y_q8 = part_way(a->y_q8, b->y_q8, at)};
+    yb_vertex_t link;
+    link.x_q8 = part_way(a->x_q8, b->x_q8, at);
+    link.y_q8 = part_way(a->y_q8, b->y_q8, at);
     bool on_edge = false;
     half_t e = find_between(load, &link, line_a, line_b, &on_edge);
     if (e == NO_HALF)

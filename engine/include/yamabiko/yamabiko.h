@@ -251,7 +251,6 @@ typedef struct {
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
     /* private: what one stage alone needs; each fills it in before it reads it */
     union {
-        uint8_t header[14];                    /* paper.c */
         uint16_t model[128];                   /* compact.c: what it has learned */
         yb_triangle_t root[YB_MAX_TRIANGLES];  /* regions.c: union-find */
         uint8_t ground[YB_MAX_REGIONS];        /* summits.c: what a region is like */
