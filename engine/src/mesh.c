@@ -11,6 +11,12 @@ half_t last_of(half_t e)
     return (e & 3) != 0 ? e - 1 : e + 2;
 }
 
+half_t half_after(const yb_load_t *load, half_t e)
+{
+    e += (e & 2) != 0 ? 2 : 1;
+    return triangle_of(e) < (int)load->map->triangle_count ? e : NO_HALF;
+}
+
 int region_of(const yb_load_t *load, half_t e)
 {
     return load->region[triangle_of(e)];

@@ -58,16 +58,11 @@ static inline int next3(int i)
 half_t next_of(half_t e);
 half_t last_of(half_t e);
 
-/* The next half of all: for (half_t e = 0; e < halves_of(load); e = half_after(e)). */
-static inline half_t half_after(half_t e)
-{
-    return e + 1 + (e >> 1 & 1);
-}
-
-static inline half_t halves_of(const yb_load_t *load)
-{
-    return 4 * (half_t)load->map->triangle_count;
-}
+/* The next half of all, NO_HALF after the last one:
+ *
+ *     for (half_t e = 0; e != NO_HALF; e = half_after(load, e))
+ */
+half_t half_after(const yb_load_t *load, half_t e);
 
 /* The region that the half's triangle lies in, after regions_find. */
 int region_of(const yb_load_t *load, half_t e);

@@ -20,7 +20,7 @@ yb_status_t regions_find(yb_load_t *load)
 {
     for (yb_triangle_t t = 0; t < load->map->triangle_count; t++)
         load->root[t] = t;
-    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         yb_triangle_t t = (yb_triangle_t)triangle_of(e);
         int u = entry_of(load, e);
         if (u >= (int)t) /* each edge once; not across the frame, not across a contour */

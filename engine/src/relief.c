@@ -153,7 +153,7 @@ static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
 {
     uint64_t sum = 0;
     uint32_t edges = 0;
-    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if ((entry_of(load, e) & NO_TRIANGLE) < triangle_of(e))
             continue; /* each edge once; those of the frame too */
         edges++;

@@ -136,7 +136,7 @@ static half_t place_in(const yb_load_t *load, half_t e, const yb_vertex_t *p, bo
 static half_t find_between(const yb_load_t *load, const yb_vertex_t *p, const yb_contour_t *line_a,
                            const yb_contour_t *line_b, bool *on_edge)
 {
-    for (half_t t = 0; t < halves_of(load); t += 4) {
+    for (half_t t = 0; triangle_of(t) < (int)load->map->triangle_count; t += 4) {
         half_t e = place_in(load, t, p, on_edge);
         if (e != NO_HALF && has_corner_on(load, t, line_a) && has_corner_on(load, t, line_b))
             return e;

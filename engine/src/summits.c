@@ -38,7 +38,7 @@ static bool look_beside(yb_load_t *load, int region)
 static int32_t rise_farther_out(const yb_load_t *load, int32_t h)
 {
     int32_t rise = 0;
-    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if ((load->ground[region_of(load, e)] & BESIDE) == 0)
             continue;
         int32_t up = h - height_at(load, origin_of(load, e));
@@ -72,7 +72,7 @@ static int32_t area_at(const yb_load_t *load, half_t e)
 static void look_round(const yb_load_t *load, int region, surroundings_t *found)
 {
     *found = (surroundings_t){0};
-    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if (region_of(load, e) != region)
             continue;
         if ((e & 3) == 0)
@@ -144,7 +144,7 @@ static spot_t widest_place(const yb_load_t *load, int region)
     spot_t spot = {.beyond = true};
     uint32_t best = 0;
     int32_t widest = -1;
-    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if (region_of(load, e) != region)
             continue;
         bool alone = entry_of(load, e) >= NO_TRIANGLE;
@@ -194,7 +194,7 @@ yb_status_t summits_add(yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
         load->ground[r] = FLAT;
-    for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if (height_at(load, origin_of(load, e)) != height_at(load, end_of(load, e)))
             load->ground[region_of(load, e)] = 0;
     }

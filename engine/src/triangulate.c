@@ -182,23 +182,26 @@ static yb_status_t insert_all(yb_load_t *load)
     const yb_index_t *corner = load->corner;
     map->triangle_count = 2;
     for (int t = 0; t < 2; t++) {
-        facet_t half = {{corner[0], corner[t + 1], corner[t + 2]},
-                        {NO_TRIANGLE, NO_TRIANGLE, NO_TRIANGLE}};
-        half.across[t == 0 ? 2 : 0] = t == 0 ? 1 : 0;
-        put_facet(load, t, &half);
+        facet_t part = {{corner[0], corner[t + 1], corner[t + 2]},
+                        {t == 0 ? NO_TRIANGLE : 0, NO_TRIANGLE, NO_TRIANGLE}};
+        put_facet(load, t, &part);
     }
     mesh_legalise(load, corner[0]);
     mesh_legalise(load, corner[1]);
     int t = 0;
     for (int p = 0; p < map->vertex_count; p++) {
-        if (p == corner[0] || p == corner[1] || p == corner[2] || p == corner[3])
-            continue;
         bool on_edge = false;
         half_t e = locate(load, 4 * t, vertex_of(load, p), &on_edge);
+        bool is_corner = false; /* of the frame: it is there */
         for (int k = 0; k < 3; k++, e = next_of(e)) {
-            if (same_place(vertex_of(load, origin_of(load, e)), vertex_of(load, p)))
+            int v = origin_of(load, e);
+            if (v == p)
+                is_corner = true;
+            else if (same_place(vertex_of(load, v), vertex_of(load, p)))
                 return YB_ERR_CORRUPT;
         }
+        if (is_corner)
+            continue;
         mesh_split(load, e, on_edge, p);
         mesh_legalise(load, p);
         t = (int)load->star[p];
@@ -342,7 +345,7 @@ void mesh_make_delaunay(yb_load_t *load)
     bool flipped = true;
     while (flipped) {
         flipped = false;
-        for (half_t e = 0; e < halves_of(load); e = half_after(e)) {
+        for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
             if (entry_of(load, e) > triangle_of(e) && illegal(load, e)) {
                 flip(load, e);
                 flipped = true;
