@@ -200,58 +200,62 @@ static int take_vertices(yb_load_t *load, int value)
     return LINE_COUNT;
 }
 
+/* Fields follow each other in the enum's order, but for those that are left out. */
 static int take_header(yb_load_t *load, int value)
 {
+    yb_map_t *map = load->map;
+    int next = load->state + 1;
     switch ((enum field)load->state) {
     case CELL_EXPONENT:
-        load->map->cell = (uint16_t)value;
-        return CELL_MANTISSA;
+        map->cell = (uint16_t)value;
+        break;
     case CELL_MANTISSA:
         /* Exponent 0: 0 to 255 64ths of a metre; else a ninth bit stands before the mantissa. */
-        load->map->cell = (uint16_t)(load->map->cell == 0 ? value : (load->map->cell - 1) << 12 | 256 | value);
-        return load->map->cell == 0 ? YB_ERR_CORRUPT : (int)SPACING;
+        map->cell = (uint16_t)(map->cell == 0 ? value : (map->cell - 1) << 12 | 256 | value);
+        return map->cell == 0 ? YB_ERR_CORRUPT : next;
     case SPACING:
         load->spacing = (uint8_t)(value + 1);
         load->columns = load->rows = (uint8_t)(255 / load->spacing);
-        return OBLONG;
+        break;
     case OBLONG:
-        return value == 0 ? UNIT_EXPONENT : SHORTER;
+        return value == 0 ? UNIT_EXPONENT : next;
     case SHORTER:
         load->narrow = value != 0;
         load->at = (uint16_t)(load->columns - 1);
-        return SHORT_SIDE;
+        break;
     case SHORT_SIDE:
         *(load->narrow ? &load->columns : &load->rows) = (uint8_t)(value + 1);
-        return UNIT_EXPONENT;
+        break;
     case UNIT_EXPONENT:
-        load->map->unit = (uint16_t)((unsigned)value << 12);
-        return UNIT_MANTISSA;
+        map->unit = (uint16_t)((unsigned)value << 12);
+        break;
     case UNIT_MANTISSA:
-        load->map->unit = (uint16_t)(load->map->unit | 16 | value);
-        return COARSE;
+        map->unit = (uint16_t)(map->unit | 16 | value);
+        break;
     case COARSE:
-        return value == 0 ? BASE : INTERVAL;
+        return value == 0 ? BASE : next;
     case INTERVAL:
         load->interval = (uint8_t)(value + 1);
-        return BASE;
+        break;
     case BASE:
         load->base = value;
-        return value == 0 ? DIMENSION : BASE_DOWN;
+        return value == 0 ? DIMENSION : next;
     case BASE_DOWN:
         load->base = value != 0 ? -load->base : load->base;
-        return DIMENSION;
+        break;
     case DIMENSION:
-        load->map->hurst_q8m1 = (uint8_t)(255 - 8 * value);
-        return GAIN;
+        map->hurst_q8m1 = (uint8_t)(255 - 8 * value);
+        break;
     case GAIN:
         load->gain = gain_of(value);
-        return STRAIGHT;
+        break;
     case STRAIGHT:
-        load->map->smooth = value == 0;
-        return VERTICES;
+        map->smooth = value == 0;
+        break;
     default:
         return take_vertices(load, value);
     }
+    return next;
 }
 
 /* --- Points --------------------------------------------------------------------------------- */
@@ -406,31 +410,30 @@ static int take_place(yb_load_t *load, int rest)
 
 static int take_line(yb_load_t *load, int value)
 {
+    int next = load->state + 1;
     switch ((enum field)load->state) {
     case LINE_COUNT:
         load->lines = (uint16_t)value;
         return next_line(load);
     case CLOSED:
         load->open = value != 0;
-        return load->open ? WAY : START_X;
+        return load->open ? WAY : next;
     case START_X:
         load->start_x = load->start_x + signed_of(value);
-        return START_Y;
+        return next;
     case START_Y:
         load->start_y = load->start_y + signed_of(value);
         return take_start(load);
     case WAY:
         return take_way(load, signed_of(value));
     case LENGTH:
-        if (value >= 255)
-            return YB_ERR_CORRUPT;
         load->length = value + 1;
         load->at = (uint16_t)(load->turn_context * TURN_MODELS);
-        return SECTOR;
+        return value < 255 ? next : YB_ERR_CORRUPT;
     case SECTOR:
         load->sector = (uint8_t)value;
         load->at = (uint16_t)(load->length - 1);
-        return PLACE;
+        return next;
     case PLACE:
         return take_place(load, value);
     default:
@@ -537,19 +540,25 @@ static int take_height(yb_load_t *load, int value)
 
 static yb_status_t end_relief(yb_load_t *load)
 {
+    yb_map_t *map = load->map;
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
-    int64_t base_64th_m = (int64_t)load->base * yb_unit_64th_m(load->map->unit) + ((int32_t)1 << 21);
-    bool good = base_64th_m >= 0 && base_64th_m < (int32_t)1 << 22;
+    uint64_t base_64th_m =
+        (uint64_t)((int64_t)load->base * yb_unit_64th_m(map->unit) + ((int32_t)1 << 21));
     uint32_t rest = (uint32_t)base_64th_m & 63;
-    load->map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - 32768);
-    load->map->seed = load->recent >> 8 & 127;
-    good = good && settle_height(load->map, rest, &load->frame_height);
-    for (int i = 0; i < 4 && good; i++)
-        good = load->corner_height[i] == UNKNOWN_HEIGHT ||
-               settle_height(load->map, rest, &load->corner_height[i]);
-    for (int i = 0; i < load->point_count && good; i++)
-        good = settle_height(load->map, rest, &load->map->vertex[i].z_q8);
-    return good ? YB_OK : YB_ERR_CORRUPT;
+    map->base_m = (int16_t)((int32_t)((uint32_t)base_64th_m / 64) - 32768);
+    map->seed = load->recent >> 8 & 127;
+    if (base_64th_m >> 22 != 0 || !settle_height(map, rest, &load->frame_height))
+        return YB_ERR_CORRUPT;
+    for (int i = 0; i < 4; i++) {
+        int32_t *height = &load->corner_height[i];
+        if (*height != UNKNOWN_HEIGHT && !settle_height(map, rest, height))
+            return YB_ERR_CORRUPT;
+    }
+    for (int i = 0; i < load->point_count; i++) {
+        if (!settle_height(map, rest, &map->vertex[i].z_q8))
+            return YB_ERR_CORRUPT;
+    }
+    return YB_OK;
 }
 
 static int take_field(yb_load_t *load)
