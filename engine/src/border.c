@@ -75,17 +75,19 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
 /* Makes corner k a vertex, unless a line ends there. */
 static yb_status_t place_corner(yb_load_t *load, int k)
 {
-    uint16_t x = k == 1 || k == 2 ? load->map->east_q8 : 0;
-    uint16_t y = k >= 2 ? load->map->north_q8 : 0;
+    yb_vertex_t corner;
+    corner.x_q8 = k == 1 || k == 2 ? load->map->east_q8 : 0;
+    corner.y_q8 = k >= 2 ? load->map->north_q8 : 0;
+    corner.z_q8 = load->corner_height[k];
     for (int i = 0; i < load->point_count; i++) {
         const yb_vertex_t *point = vertex_of(load, i);
-        if (point->x_q8 == x && point->y_q8 == y) {
+        if (point->x_q8 == corner.x_q8 && point->y_q8 == corner.y_q8) {
             load->corner[k] = (yb_index_t)i;
-            return load->corner_height[k] == UNKNOWN_HEIGHT ? YB_OK : YB_ERR_CORRUPT;
+            return corner.z_q8 == UNKNOWN_HEIGHT ? YB_OK : YB_ERR_CORRUPT;
         }
     }
     load->corner[k] = (yb_index_t)load->map->vertex_count;
-    return mesh_add_vertex(load, x, y, load->corner_height[k]) == YB_OK ? YB_OK : YB_ERR_CORRUPT;
+    return mesh_add_vertex(load, &corner) == YB_OK ? YB_OK : YB_ERR_CORRUPT;
 }
 
 yb_status_t border_close(yb_load_t *load)

@@ -159,14 +159,23 @@ uint32_t edge_key(const yb_load_t *load, half_t e)
     return a < b ? a << 16 | b : b << 16 | a;
 }
 
-yb_status_t mesh_add_vertex(yb_load_t *load, uint16_t x_q8, uint16_t y_q8, int32_t z_q8)
+void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle)
+{
+    const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
+    const yb_vertex_t *b = vertex_of(load, end_of(load, e));
+    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
+    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+    middle->z_q8 = a->z_q8;
+}
+
+yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
 {
     yb_map_t *map = load->map;
     if (map->vertex_count >= load->vertices_promised)
         return YB_ERR_LIMIT;
     yb_vertex_t *v = &map->vertex[map->vertex_count++];
-    v->x_q8 = x_q8;
-    v->y_q8 = y_q8;
-    v->z_q8 = z_q8;
+    v->x_q8 = at->x_q8;
+    v->y_q8 = at->y_q8;
+    v->z_q8 = at->z_q8;
     return YB_OK;
 }

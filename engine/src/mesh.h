@@ -140,6 +140,9 @@ int32_t edge_length(const yb_load_t *load, int a, int b);
 
 int32_t half_length(const yb_load_t *load, half_t e);
 
+/* The middle of an edge, at the height of its beginning; without slopes. */
+void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle);
+
 /* The edge as a number, the lower end's times 65536 and the higher end's: an order that does not
  * depend on how the mesh is written down.
  */
@@ -155,14 +158,16 @@ YB_MUST_CHECK yb_status_t border_close(yb_load_t *load);
  */
 YB_MUST_CHECK yb_status_t mesh_triangulate(yb_load_t *load);
 
-/* Adds a vertex that lies in no triangle yet; YB_ERR_LIMIT if the code did not promise so many. */
-YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_load_t *load, uint16_t x_q8, uint16_t y_q8,
-                                          int32_t z_q8);
-
-/* Splits the triangle of e at vertex p, which lies in it or, with on_edge, on e: then the triangle
- * across is split too. Nothing is flipped.
+/* Adds a vertex, of which x, y and z are given, that lies in no triangle yet; YB_ERR_LIMIT if the
+ * code did not promise so many.
  */
-void mesh_split(yb_load_t *load, half_t e, bool on_edge, int p);
+YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at);
+
+/* The same, and splits the triangle of e at it: it lies in it or, with on_edge, on e; then the
+ * triangle across is split too. Nothing is flipped.
+ */
+YB_MUST_CHECK yb_status_t mesh_insert(yb_load_t *load, half_t e, bool on_edge,
+                                      const yb_vertex_t *at);
 
 /* Makes the edges round the new vertex p Delaunay. */
 void mesh_legalise(yb_load_t *load, int p);

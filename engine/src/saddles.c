@@ -183,15 +183,15 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair, bool *joined)
     yb_vertex_t link;
     link.x_q8 = part_way(a->x_q8, b->x_q8, at);
     link.y_q8 = part_way(a->y_q8, b->y_q8, at);
+    link.z_q8 = (load->level_q8 + load->other_q8) / 2;
     bool on_edge = false;
     half_t e = find_between(load, &link, line_a, line_b, &on_edge);
     if (e == NO_HALF)
         return YB_OK;
     int m = load->map->vertex_count;
-    if (mesh_add_vertex(load, link.x_q8, link.y_q8, (load->level_q8 + load->other_q8) / 2) != YB_OK)
+    if (mesh_insert(load, e, on_edge, &link) != YB_OK)
         return YB_ERR_LIMIT;
     *joined = true;
-    mesh_split(load, e, on_edge, m);
     mesh_legalise(load, m);
     yb_status_t status = link_to_line(load, m, line_a);
     if (status == YB_OK)

@@ -33,15 +33,13 @@ typedef struct {
 /* Splits a bridge; the height of its middle is that of the edge until heights are known. */
 static yb_status_t split_bridge(yb_load_t *load, const bridge_t *bridge)
 {
-    const yb_vertex_t *a = vertex_of(load, origin_of(load, bridge->half));
-    const yb_vertex_t *b = vertex_of(load, end_of(load, bridge->half));
+    yb_vertex_t middle;
     yb_index_t m = (yb_index_t)load->map->vertex_count;
-    if (mesh_add_vertex(load, fix_middle(a->x_q8, b->x_q8), fix_middle(a->y_q8, b->y_q8),
-                        a->z_q8) != YB_OK)
+    find_middle(load, bridge->half, &middle);
+    if (mesh_insert(load, bridge->half, true, &middle) != YB_OK)
         return YB_ERR_LIMIT;
     load->branch[m] = (yb_branch_t){
         .parent = (yb_index_t)bridge->parent, .other = (yb_index_t)bridge->other, .end = m};
-    mesh_split(load, bridge->half, true, m);
     return YB_OK;
 }
 
@@ -50,14 +48,11 @@ static bool meets(const yb_load_t *load, int m)
     return load->branch[m].other != m;
 }
 
-/* The first point of the branch that v belongs to, and how far that is from v. */
-static int beginning_of(const yb_load_t *load, int v,
-                               int32_t *length)
+/* The first point of the branch that v belongs to. */
+static int beginning_of(const yb_load_t *load, int v)
 {
-    while (load->branch[v].parent >= load->first_skeleton) {
-        *length += edge_length(load, load->branch[v].parent, v);
+    while (load->branch[v].parent >= load->first_skeleton)
         v = load->branch[v].parent;
-    }
     return v;
 }
 
@@ -121,10 +116,12 @@ static bool begins_branch(const yb_load_t *load, bridge_t *bridge)
     return up != 0 && (up_other == 0 || (up > 0) == (up_other > 0));
 }
 
-/* The bridge from v to the lowest higher number at which a branch begins. */
+/* The bridge from v to the lowest higher number at which a branch begins: one that has a point of
+ * another height on one side, and on the other flat ground, or another such point: then a bridge is
+ * all there is.
+ */
 static bool find_beginning(const yb_load_t *load, int v, bridge_t *next)
 {
-    next->key = UINT32_MAX;
     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         for (int k = 0; k < 2; k++) {
             half_t side = k == 0 ? e : last_of(e);
@@ -137,107 +134,68 @@ static bool find_beginning(const yb_load_t *load, int v, bridge_t *next)
     return next->key != UINT32_MAX;
 }
 
-/* Branches begin at bridges that have a point of another height on one side, and on the other flat
- * ground, or another such point: then a bridge is all there is. In the order of their ends'
- * numbers.
- */
-static yb_status_t begin_branches(yb_load_t *load)
-{
-    for (int v = 0; v < load->first_skeleton; v++) {
-        bridge_t bridge;
-        while (find_beginning(load, v, &bridge)) {
-            int m = load->map->vertex_count;
-            if (split_bridge(load, &bridge) != YB_OK)
-                return YB_ERR_LIMIT;
-            load->way[m] = add_way(load, 0, steepness(load, m), bridge.parent, m);
-        }
-    }
-    return YB_OK;
-}
-
-/* The next bridge that point v looks at. */
+/* The next bridge that point v looks at. One on the frame counts as met by its mirror image. */
 static bool find_bridge(const yb_load_t *load, int v, bridge_t *next)
 {
-    next->key = UINT32_MAX;
     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
         half_t opposite = next_of(e);
         uint32_t key = edge_key(load, opposite);
-        if (key < next->key && is_bridge(load, opposite))
-            *next = (bridge_t){opposite, key, v, v};
+        if (key < next->key && is_bridge(load, opposite)) {
+            next->half = opposite;
+            next->key = key;
+        }
     }
-    return next->key != UINT32_MAX;
+    if (next->key == UINT32_MAX)
+        return false;
+    half_t twin = twin_of(load, next->half);
+    if (twin != NO_HALF) {
+        int q = apex_of(load, twin);
+        /* v still has the height of the bridge that it splits, and of its flat ground, where the
+         * new point will grow on. */
+        bool flat = q < load->first_skeleton && height_at(load, q) == height_at(load, v);
+        next->other = flat ? load->map->vertex_count : q;
+    }
+    return true;
 }
 
-/* Splits all bridges that v looks at. One on the frame counts as met by its mirror image. */
-static yb_status_t grow(yb_load_t *load, int v)
+/* Splits all bridges at v where branches begin, or, if v is a point of a branch, that it looks at.
+ */
+static yb_status_t split_bridges(yb_load_t *load, int v)
 {
-    int32_t unused = 0;
-    int32_t h =
-        height_at(load, v); /* still that of the bridge that v splits, and of its flat ground */
-    uint32_t weight = steepness(load, beginning_of(load, v, &unused));
-    bridge_t bridge;
-    while (find_bridge(load, v, &bridge)) {
+    bool begins = v < load->first_skeleton;
+    for (;;) {
+        bridge_t bridge = {NO_HALF, UINT32_MAX, v, v};
+        if (!(begins ? find_beginning(load, v, &bridge) : find_bridge(load, v, &bridge)))
+            return YB_OK;
         int m = load->map->vertex_count;
-        half_t twin = twin_of(load, bridge.half);
-        if (twin != NO_HALF) {
-            int q = apex_of(load, twin);
-            bool flat = q < load->first_skeleton && height_at(load, q) == h;
-            bridge.other = flat ? m : q; /* flat ground: it will grow on */
-        }
         if (split_bridge(load, &bridge) != YB_OK)
             return YB_ERR_LIMIT;
-        load->way[m] = add_way(load, load->way[v], weight, v, m);
+        uint32_t weight = steepness(load, begins ? m : beginning_of(load, v));
+        load->way[m] = add_way(load, begins ? 0 : load->way[v], weight, bridge.parent, m);
     }
-    load->branch[v].grown = true;
-    return YB_OK;
 }
 
-/* The shortest way first, so that branches meet where the slopes from both sides would. */
-static yb_status_t grow_all(yb_load_t *load)
+/* First the beginnings, in the order of their bridges' ends. Then always the shortest way, so that
+ * branches meet where the slopes from both sides would.
+ */
+static yb_status_t grow(yb_load_t *load)
 {
+    for (int v = 0; v < load->first_skeleton; v++) {
+        if (split_bridges(load, v) != YB_OK)
+            return YB_ERR_LIMIT;
+    }
     for (;;) {
         int next = -1;
         for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
-            const yb_branch_t *branch = &load->branch[v];
-            if (!branch->grown && (next < 0 || load->way[v] < load->way[next]))
+            if (!load->branch[v].grown && (next < 0 || load->way[v] < load->way[next]))
                 next = v;
         }
         if (next < 0)
             return YB_OK;
-        if (grow(load, next) != YB_OK)
+        if (split_bridges(load, next) != YB_OK)
             return YB_ERR_LIMIT;
+        load->branch[next].grown = true;
     }
-}
-
-/* Keeps z strictly on the side of h that the branch came from, by `least` at the least. */
-static int32_t keep_off(int32_t z, int32_t h, int32_t from, int32_t least)
-{
-    least = fix_max(least, 1);
-    return from > h ? fix_max(z, h + least) : fix_min(z, h - least);
-}
-
-/* Where two branches meet: a saddle half way up to the height of the sides if both began at one
- * height, else on the even slope from one beginning to the other.
- */
-static int32_t meeting_height(const yb_load_t *load, int m)
-{
-    int32_t h = height_at(load, m);
-    int side[2] = {load->branch[m].parent, load->branch[m].other};
-    int32_t way[2];
-    int32_t z[2];
-    for (int k = 0; k < 2; k++) {
-        int from = side[k];
-        way[k] = edge_length(load, m, from);
-        if (from >= load->first_skeleton) {
-            int first = beginning_of(load, from, &way[k]);
-            from = load->branch[first].parent;
-            way[k] += edge_length(load, first, from);
-        }
-        z[k] = height_at(load, from);
-    }
-    int32_t at =
-        z[0] == z[1] ? (z[0] + h) / 2 : z[0] + fix_scale(z[1] - z[0], way[0], way[0] + way[1]);
-    return keep_off(at, h, z[0], fix_abs(h - z[0]) / 8);
 }
 
 /* How far the contour is on from a point with no branch beyond it. */
@@ -259,9 +217,8 @@ static void measure_ways(yb_load_t *load)
 {
     for (int v = load->first_skeleton; v < load->map->vertex_count; v++)
         load->way[v] = 0;
-    for (int i = load->map->vertex_count - 1; i >= load->first_skeleton; i--) {
-        int v = i;
-        yb_branch_t *branch = &load->branch[v];
+    for (int v = load->map->vertex_count - 1; v >= load->first_skeleton; v--) {
+        const yb_branch_t *branch = &load->branch[v];
         if (load->way[v] == 0 && !meets(load, v))
             load->way[v] = way_to_contour(load, v);
         for (int k = 0; k < 2; k++) {
@@ -278,37 +235,54 @@ static void measure_ways(yb_load_t *load)
     }
 }
 
-/* Meeting points first, then even slopes from the beginnings to the ends. */
-static void set_heights(yb_load_t *load)
+/* The way back from v over a point beside it to where the branch began, and the height there. */
+static int32_t way_back(const yb_load_t *load, int v, int to, int32_t *way)
 {
-    for (int i = load->first_skeleton; i < load->map->vertex_count; i++) {
-        if (meets(load, i))
-            load->map->vertex[i].z_q8 = meeting_height(load, i);
+    *way = edge_length(load, v, to);
+    while (to >= load->first_skeleton) {
+        v = to;
+        to = load->branch[v].parent;
+        *way += edge_length(load, v, to);
     }
-    for (int i = load->first_skeleton; i < load->map->vertex_count; i++) {
-        int v = i;
-        const yb_branch_t *branch = &load->branch[v];
-        if (meets(load, v))
-            continue;
-        int32_t h = height_at(load, v);
-        int32_t from = height_at(load, branch->parent);
-        int32_t to = height_at(load, branch->end); /* h, if that is v itself */
-        int32_t step = edge_length(load, branch->parent, v);
-        int32_t z = from + fix_scale(to - from, step, step + (int32_t)load->way[v]);
-        bool begins = branch->parent < load->first_skeleton;
-        load->map->vertex[v].z_q8 = keep_off(z, h, from, begins ? fix_abs(h - from) / 8 : 0);
+    return height_at(load, to);
+}
+
+/* Where two branches meet: a saddle half way up to the height of the sides if both began at one
+ * height, else on the even slope from one beginning to the other. All other points: on the even
+ * slope from the point before to the end. Strictly on the side of its edge's height that the branch
+ * came from.
+ */
+static int32_t height_on(const yb_load_t *load, int v)
+{
+    const yb_branch_t *branch = &load->branch[v];
+    int32_t h = height_at(load, v);
+    int32_t from = height_at(load, branch->parent);
+    int32_t to = height_at(load, branch->end); /* h, if that is v itself */
+    int32_t way = edge_length(load, branch->parent, v);
+    int32_t rest = (int32_t)load->way[v];
+    if (meets(load, v)) {
+        from = way_back(load, v, branch->parent, &way);
+        to = way_back(load, v, branch->other, &rest);
     }
+    bool saddle = meets(load, v) && from == to;
+    int32_t z = saddle ? (from + h) / 2 : from + fix_scale(to - from, way, way + rest);
+    bool begins = meets(load, v) || branch->parent < load->first_skeleton;
+    int32_t least = begins ? fix_max(fix_abs(h - from) / 8, 1) : 1;
+    return from > h ? fix_max(z, h + least) : fix_min(z, h - least);
 }
 
 yb_status_t skeleton_add(yb_load_t *load)
 {
     load->first_skeleton = load->map->vertex_count;
-    yb_status_t status = begin_branches(load);
-    if (status == YB_OK)
-        status = grow_all(load);
-    if (status != YB_OK)
-        return status;
+    if (grow(load) != YB_OK)
+        return YB_ERR_LIMIT;
     measure_ways(load);
-    set_heights(load);
+    /* Meeting points first: slopes end there. */
+    for (int k = 0; k < 2; k++) {
+        for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
+            if (meets(load, v) == (k == 0))
+                load->map->vertex[v].z_q8 = height_on(load, v);
+        }
+    }
     return YB_OK;
 }

@@ -170,19 +170,19 @@ static spot_t widest_place(const yb_load_t *load, int region)
 
 static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
 {
-    const yb_vertex_t *a = vertex_of(load, origin_of(load, spot->half));
-    const yb_vertex_t *b = vertex_of(load, end_of(load, spot->half));
-    const yb_vertex_t *c = vertex_of(load, apex_of(load, spot->half));
-    uint16_t x = fix_middle(a->x_q8, b->x_q8);
-    uint16_t y = fix_middle(a->y_q8, b->y_q8);
-    if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
-        x = fix_middle(x, c->x_q8);
-        y = fix_middle(y, c->y_q8);
-    }
+    half_t e = spot->half;
     yb_index_t p = (yb_index_t)load->map->vertex_count;
-    if (mesh_add_vertex(load, x, y, z) != YB_OK)
+    yb_vertex_t summit;
+    find_middle(load, e, &summit);
+    summit.z_q8 = z;
+    if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
+        const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
+        summit.x_q8 = fix_middle(summit.x_q8, c->x_q8);
+        summit.y_q8 = fix_middle(summit.y_q8, c->y_q8);
+        e = 4 * triangle_of(e);
+    }
+    if (mesh_insert(load, e, !spot->beyond, &summit) != YB_OK)
         return YB_ERR_LIMIT;
-    mesh_split(load, spot->beyond ? 4 * triangle_of(spot->half) : spot->half, !spot->beyond, p);
     mesh_legalise(load, p);
     yb_index_t region = load->region[load->star[p]];
     load->contour[load->contour_count + load->summit_count++] =

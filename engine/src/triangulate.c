@@ -151,7 +151,7 @@ static bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
 /* Splits t = (a b c) at p into (a b p), (b c p), (c a p), where p may lie on ab. Then a b p is
  * flat: it is flipped away, or, on the frame, left out.
  */
-void mesh_split(yb_load_t *load, half_t e, bool on_edge, int p)
+static void split(yb_load_t *load, half_t e, bool on_edge, int p)
 {
     yb_map_t *map = load->map;
     facet_t f;
@@ -174,6 +174,15 @@ void mesh_split(yb_load_t *load, half_t e, bool on_edge, int p)
     }
     if (on_edge && !on_side)
         flip(load, 4 * (half_t)part[0]);
+}
+
+yb_status_t mesh_insert(yb_load_t *load, half_t e, bool on_edge, const yb_vertex_t *at)
+{
+    int p = load->map->vertex_count;
+    if (mesh_add_vertex(load, at) != YB_OK)
+        return YB_ERR_LIMIT;
+    split(load, e, on_edge, p);
+    return YB_OK;
 }
 
 static yb_status_t insert_all(yb_load_t *load)
@@ -202,7 +211,7 @@ static yb_status_t insert_all(yb_load_t *load)
         }
         if (is_corner)
             continue;
-        mesh_split(load, e, on_edge, p);
+        split(load, e, on_edge, p);
         mesh_legalise(load, p);
         t = (int)load->star[p];
     }
