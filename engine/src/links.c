@@ -83,9 +83,9 @@ static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_conto
     int32_t rise = 0;
     int32_t run = 1;
     for (const yb_contour_t *spot = load->contour; spot < end; spot++) {
-        int32_t up = height_of(load, spot) - z;
         if (is_line(spot) || (line == NULL) != (spot->left == load->here))
             continue;
+        int32_t up = height_of(load, spot) - z;
         if (line != NULL) {
             const yb_contour_t *before = line_before(load, spot);
             int32_t way = before == NULL ? 0 : height_of(load, before) - z;

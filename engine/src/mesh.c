@@ -13,7 +13,7 @@ half_t last_of(half_t e)
 
 half_t half_after(const yb_load_t *load, half_t e)
 {
-    e += (e & 2) != 0 ? 2 : 1;
+    e += 1 + (e >> 1 & 1); /* there is no edge 3 */
     return triangle_of(e) < (int)load->map->triangle_count ? e : NO_HALF;
 }
 
@@ -30,7 +30,7 @@ int origin_of(const yb_load_t *load, half_t e)
 
 int end_of(const yb_load_t *load, half_t e)
 {
-    return load->map->triangle[triangle_of(e)][next3(e & 3)];
+    return origin_of(load, (e & 2) != 0 ? e - 2 : e + 1);
 }
 
 int apex_of(const yb_load_t *load, half_t e)
