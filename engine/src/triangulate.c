@@ -13,16 +13,16 @@
 
 /* A triangle, and what lies across its edges. */
 typedef struct {
-    yb_index_t v[3];
-    yb_triangle_t across[3];
+    int v[3];
+    int across[3];
 } facet_t;
 
 /* The triangle of e as it is, e being its first edge. */
 static void take_facet(const yb_load_t *load, half_t e, facet_t *facet)
 {
     for (int k = 0; k < 3; k++, e = next_of(e)) {
-        facet->v[k] = (yb_index_t)origin_of(load, e);
-        facet->across[k] = (yb_triangle_t)entry_of(load, e);
+        facet->v[k] = origin_of(load, e);
+        facet->across[k] = entry_of(load, e);
     }
 }
 
@@ -33,10 +33,10 @@ static void put_facet(yb_load_t *load, int t, const facet_t *facet)
 {
     yb_across_t word = 0;
     for (int k = 2; k >= 0; k--) {
-        int entry = (int)facet->across[k];
+        int entry = facet->across[k];
         int u = entry & NO_TRIANGLE;
         word = word << ENTRY_BITS | (yb_across_t)entry;
-        load->map->triangle[t][k] = facet->v[k];
+        load->map->triangle[t][k] = (yb_index_t)facet->v[k];
         load->star[facet->v[k]] = (yb_triangle_t)t;
         if (u != NO_TRIANGLE)
             set_entry(load, half_at(load, u, facet->v[next3(k)]), t | (entry & ENTRY_MARK));
@@ -54,18 +54,18 @@ static void flip(yb_load_t *load, half_t e)
     take_facet(load, e, &p);
     take_facet(load, twin_of(load, e), &q);
     int t = triangle_of(e);
-    int u = (int)p.across[0];
-    yb_triangle_t bc = p.across[1];
+    int u = p.across[0];
+    int bc = p.across[1];
     p.v[1] = q.v[2];
     p.across[0] = q.across[1];
-    p.across[1] = (yb_triangle_t)u;
+    p.across[1] = u;
     put_facet(load, t, &p);
     q.v[1] = q.v[0];
     q.v[0] = q.v[2];
     q.v[2] = p.v[2];
     q.across[0] = q.across[2];
     q.across[1] = bc;
-    q.across[2] = (yb_triangle_t)t;
+    q.across[2] = t;
     put_facet(load, u, &q);
 }
 
@@ -157,23 +157,23 @@ static void split(yb_load_t *load, half_t e, bool on_edge, int p)
     facet_t f;
     take_facet(load, e, &f);
     bool on_side = on_edge && f.across[0] == NO_TRIANGLE;
-    yb_triangle_t t = (yb_triangle_t)triangle_of(e);
-    yb_triangle_t part[3] = {NO_TRIANGLE, t, map->triangle_count++};
+    int t = triangle_of(e);
+    int part[3] = {NO_TRIANGLE, t, (int)map->triangle_count++};
     if (!on_side)
-        part[0] = map->triangle_count++;
+        part[0] = (int)map->triangle_count++;
     int before = 2;
     for (int k = 0; k < 3; k++) {
         int after = next3(k);
-        facet_t facet = {{f.v[k], f.v[after], (yb_index_t)p},
+        facet_t facet = {{f.v[k], f.v[after], p},
                          {f.across[k], part[after], part[before]}};
         before = k;
         if (part[k] == NO_TRIANGLE)
             continue;
         load->region[part[k]] = load->region[t];
-        put_facet(load, (int)part[k], &facet);
+        put_facet(load, part[k], &facet);
     }
     if (on_edge && !on_side)
-        flip(load, 4 * (half_t)part[0]);
+        flip(load, 4 * part[0]);
 }
 
 yb_status_t mesh_insert(yb_load_t *load, half_t e, bool on_edge, const yb_vertex_t *at)
@@ -236,16 +236,26 @@ static void clear_fan(yb_load_t *load, int v, int from, int to)
     }
 }
 
+/* The half of the triangle on the left of spoke e that leads from the spoke's beginning to b, or
+ * back; NO_HALF: none.
+ */
+static half_t edge_to(const yb_load_t *load, half_t e, int b)
+{
+    if (end_of(load, e) == b)
+        return e;
+    e = last_of(e);
+    return origin_of(load, e) == b ? e : NO_HALF;
+}
+
 /* The spoke of a on whose left the segment ab leaves, or runs along an edge. NO_HALF: ab runs
  * through another vertex.
  */
 static half_t towards(const yb_load_t *load, int a, int b)
 {
     for (half_t e = first_spoke(load, a); e != NO_HALF; e = spoke_after(load, e)) {
-        int right = end_of(load, e);
-        int left = apex_of(load, e);
-        if (right == b || left == b ||
-            (orientation(load, a, right, b) > 0 && orientation(load, a, b, left) > 0))
+        if (edge_to(load, e, b) != NO_HALF ||
+            (orientation(load, a, end_of(load, e), b) > 0 &&
+             orientation(load, a, b, apex_of(load, e)) > 0))
             return e;
     }
     return NO_HALF;
@@ -297,12 +307,12 @@ yb_status_t mesh_force_edge(yb_load_t *load, int a, int b)
         half_t e = towards(load, a, b);
         if (e == NO_HALF)
             return YB_ERR_CORRUPT;
-        bool right = end_of(load, e) == b;
-        if (right || apex_of(load, e) == b) {
+        half_t edge = edge_to(load, e, b);
+        if (edge != NO_HALF) {
             int t = triangle_of(e);
             facet_t facet;
             take_facet(load, 4 * t, &facet);
-            facet.across[(right ? e : last_of(e)) & 3] |= ENTRY_MARK;
+            facet.across[edge & 3] |= ENTRY_MARK;
             put_facet(load, t, &facet);
             return YB_OK;
         }
@@ -316,7 +326,7 @@ bool mesh_sees(const yb_load_t *load, int a, int b)
     half_t e = towards(load, a, b);
     if (e == NO_HALF)
         return false;
-    if (end_of(load, e) == b || apex_of(load, e) == b)
+    if (edge_to(load, e, b) != NO_HALF)
         return true;
     e = next_of(e);
     while (!is_marked(load, e)) {
