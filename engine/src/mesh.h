@@ -49,6 +49,17 @@ static inline int triangle_of(half_t e)
     return e >> 2;
 }
 
+/* The place of a point in the mesh: the half that it lies on, or, inside triangle t, 4t + 3. */
+static inline half_t inside_of(half_t e)
+{
+    return e | 3;
+}
+
+static inline bool is_inside(half_t place)
+{
+    return (place & 3) == 3;
+}
+
 static inline int next3(int i)
 {
     return i == 2 ? 0 : i + 1;
@@ -163,11 +174,9 @@ YB_MUST_CHECK yb_status_t mesh_triangulate(yb_load_t *load);
  */
 YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at);
 
-/* The same, and splits the triangle of e at it: it lies in it or, with on_edge, on e; then the
- * triangle across is split too. Nothing is flipped.
+/* The same, and splits the triangle that it lies in at it, or, on an edge, both. Nothing is flipped.
  */
-YB_MUST_CHECK yb_status_t mesh_insert(yb_load_t *load, half_t e, bool on_edge,
-                                      const yb_vertex_t *at);
+YB_MUST_CHECK yb_status_t mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at);
 
 /* Makes the edges round the new vertex p Delaunay. */
 void mesh_legalise(yb_load_t *load, int p);

@@ -105,7 +105,7 @@ static yb_status_t link_to_line(yb_load_t *load, int m, const yb_contour_t *line
 /* Is a corner of the triangle that begins with half e a point of a line? */
 static bool has_corner_on(const yb_load_t *load, half_t e, const yb_contour_t *line)
 {
-    for (; (e & 3) != 3; e++) {
+    for (; !is_inside(e); e++) {
         int point = origin_of(load, e) - line->first;
         if (point >= 0 && point < line->count)
             return true;
@@ -113,33 +113,30 @@ static bool has_corner_on(const yb_load_t *load, half_t e, const yb_contour_t *l
     return false;
 }
 
-/* Where p lies in the triangle that begins with half e: the half that it lies on, which is not
- * marked; e, not *on_edge: inside; NO_HALF: outside.
+/* The place of p in the triangle that begins with half e: inside or on an edge that is not marked;
+ * else NO_HALF.
  */
-static half_t place_in(const yb_load_t *load, half_t e, const yb_vertex_t *p, bool *on_edge)
+static half_t place_in(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
-    half_t found = e;
-    *on_edge = false;
-    for (; (e & 3) != 3; e++) {
+    half_t place = inside_of(e);
+    for (; !is_inside(e); e++) {
         int32_t side = side_of(load, e, p);
-        if (side < 0 || (side == 0 && (*on_edge || is_marked(load, e))))
+        if (side < 0 || (side == 0 && (!is_inside(place) || is_marked(load, e))))
             return NO_HALF;
-        if (side == 0) {
-            found = e;
-            *on_edge = true;
-        }
+        if (side == 0)
+            place = e;
     }
-    return found;
+    return place;
 }
 
-/* The triangle between two lines that holds point p, as place_in. */
+/* The place of p in the triangles between two lines, or NO_HALF. */
 static half_t find_between(const yb_load_t *load, const yb_vertex_t *p, const yb_contour_t *line_a,
-                           const yb_contour_t *line_b, bool *on_edge)
+                           const yb_contour_t *line_b)
 {
-    for (half_t t = 0; triangle_of(t) < (int)load->map->triangle_count; t += 4) {
-        half_t e = place_in(load, t, p, on_edge);
-        if (e != NO_HALF && has_corner_on(load, t, line_a) && has_corner_on(load, t, line_b))
-            return e;
+    for (half_t e = 0; triangle_of(e) < (int)load->map->triangle_count; e += 4) {
+        half_t place = place_in(load, e, p);
+        if (place != NO_HALF && has_corner_on(load, e, line_a) && has_corner_on(load, e, line_b))
+            return place;
     }
     return NO_HALF;
 }
@@ -162,16 +159,15 @@ typedef struct {
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
  * one line at `leaves` and entering the other at `enters`, and s = rise / run the slope of each
  * from its peak to its line, it divides the gap as s_b : s_a. Only where the mesh joins the two
- * lines, though: with a third line in between they are no neighbours.
+ * lines, though: with a third line in between they are no neighbours. YB_MORE: they are not joined.
  */
-static yb_status_t join(yb_load_t *load, const pair_t *pair, bool *joined)
+static yb_status_t join(yb_load_t *load, const pair_t *pair)
 {
     const yb_contour_t *line_a = &load->contour[load->wish[pair->a]];
     const yb_contour_t *line_b = &load->contour[load->wish[pair->b]];
     gap_t gap = {.a = load->contour[pair->a].first, .b = load->contour[pair->b].first};
-    *joined = false;
     if (!find_gap(load, line_a, line_b, &gap))
-        return YB_OK;
+        return YB_MORE;
     const yb_vertex_t *a = vertex_of(load, gap.a);
     const yb_vertex_t *b = vertex_of(load, gap.b);
     /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
@@ -179,19 +175,17 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair, bool *joined)
     int64_t weight_b = (int64_t)fix_abs(b->z_q8 - load->level_q8) * gap.leaves;
     int32_t wide = gap.enters - gap.leaves;
     int32_t at = gap.leaves + (int32_t)(wide * weight_b / (weight_a + weight_b + 1));
-    at = fix_clamp(at, gap.leaves + wide / 8, gap.enters - wide / 8);
+    at = fix_clamp(at, gap.leaves + (wide >> 3), gap.enters - (wide >> 3));
     yb_vertex_t link;
     link.x_q8 = part_way(a->x_q8, b->x_q8, at);
     link.y_q8 = part_way(a->y_q8, b->y_q8, at);
     link.z_q8 = (load->level_q8 + load->other_q8) / 2;
-    bool on_edge = false;
-    half_t e = find_between(load, &link, line_a, line_b, &on_edge);
-    if (e == NO_HALF)
-        return YB_OK;
+    half_t place = find_between(load, &link, line_a, line_b);
+    if (place == NO_HALF)
+        return YB_MORE;
     int m = load->map->vertex_count;
-    if (mesh_insert(load, e, on_edge, &link) != YB_OK)
+    if (mesh_insert(load, place, &link) != YB_OK)
         return YB_ERR_LIMIT;
-    *joined = true;
     mesh_legalise(load, m);
     yb_status_t status = link_to_line(load, m, line_a);
     if (status == YB_OK)
@@ -254,13 +248,13 @@ static yb_status_t join_level(yb_load_t *load)
     for (int s = 0; s < all_contours(load); s++)
         load->wish[s] = (yb_index_t)peak_behind(load, &load->contour[s]);
     while (refusals < MOST_REFUSALS && next_pair(load, &pair)) {
-        bool joined = false;
-        if (join(load, &pair, &joined) != YB_OK)
-            return YB_ERR_LIMIT;
-        if (joined)
+        yb_status_t status = join(load, &pair);
+        if (status == YB_MORE)
+            refusals++;
+        else if (status == YB_OK)
             load->group[group_of(load, load->wish[pair.a])] = group_of(load, load->wish[pair.b]);
         else
-            refusals++;
+            return YB_ERR_LIMIT;
     }
     return YB_OK;
 }

@@ -36,7 +36,7 @@ static yb_status_t split_bridge(yb_load_t *load, const bridge_t *bridge)
     yb_vertex_t middle;
     yb_index_t m = (yb_index_t)load->map->vertex_count;
     find_middle(load, bridge->half, &middle);
-    if (mesh_insert(load, bridge->half, true, &middle) != YB_OK)
+    if (mesh_insert(load, bridge->half, &middle) != YB_OK)
         return YB_ERR_LIMIT;
     load->branch[m] = (yb_branch_t){
         .parent = (yb_index_t)bridge->parent, .other = (yb_index_t)bridge->other, .end = m};

@@ -119,28 +119,24 @@ void mesh_legalise(yb_load_t *load, int p)
     } while (e != NO_HALF && end_of(load, e) != first_end);
 }
 
-/* Finds the triangle that holds p by walking towards it from the triangle that begins with e: the
- * half of it that p lies on, or, not *on_edge, its first. In a Delaunay triangulation such a walk
- * never goes in circles.
+/* Finds the place of p by walking towards it from the triangle that begins with e. In a Delaunay
+ * triangulation such a walk never goes in circles.
  */
-static half_t locate(const yb_load_t *load, half_t e, const yb_vertex_t *p, bool *on_edge)
+static half_t locate(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
-    half_t found = e;
-    *on_edge = false;
-    while ((e & 3) != 3) {
+    half_t place = inside_of(e);
+    while (!is_inside(e)) {
         int32_t side = side_of(load, e, p);
         if (side < 0) { /* p is in the frame: there is a triangle beyond */
-            found = e = 4 * triangle_of(twin_of(load, e));
-            *on_edge = false;
+            place = inside_of(twin_of(load, e));
+            e = place - 3;
             continue;
         }
-        if (side == 0) {
-            found = e;
-            *on_edge = true;
-        }
+        if (side == 0)
+            place = e;
         e++;
     }
-    return found;
+    return place;
 }
 
 static bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
@@ -151,13 +147,13 @@ static bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
 /* Splits t = (a b c) at p into (a b p), (b c p), (c a p), where p may lie on ab. Then a b p is
  * flat: it is flipped away, or, on the frame, left out.
  */
-static void split(yb_load_t *load, half_t e, bool on_edge, int p)
+static void split(yb_load_t *load, half_t place, int p)
 {
     yb_map_t *map = load->map;
     facet_t f;
-    take_facet(load, e, &f);
-    bool on_side = on_edge && f.across[0] == NO_TRIANGLE;
-    int t = triangle_of(e);
+    take_facet(load, is_inside(place) ? place - 3 : place, &f);
+    bool on_side = !is_inside(place) && f.across[0] == NO_TRIANGLE;
+    int t = triangle_of(place);
     int part[3] = {NO_TRIANGLE, t, (int)map->triangle_count++};
     if (!on_side)
         part[0] = (int)map->triangle_count++;
@@ -172,16 +168,16 @@ static void split(yb_load_t *load, half_t e, bool on_edge, int p)
         load->region[part[k]] = load->region[t];
         put_facet(load, part[k], &facet);
     }
-    if (on_edge && !on_side)
+    if (!is_inside(place) && !on_side)
         flip(load, 4 * part[0]);
 }
 
-yb_status_t mesh_insert(yb_load_t *load, half_t e, bool on_edge, const yb_vertex_t *at)
+yb_status_t mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at)
 {
     int p = load->map->vertex_count;
     if (mesh_add_vertex(load, at) != YB_OK)
         return YB_ERR_LIMIT;
-    split(load, e, on_edge, p);
+    split(load, place, p);
     return YB_OK;
 }
 
@@ -199,19 +195,19 @@ static yb_status_t insert_all(yb_load_t *load)
     mesh_legalise(load, corner[1]);
     int t = 0;
     for (int p = 0; p < map->vertex_count; p++) {
-        bool on_edge = false;
-        half_t e = locate(load, 4 * t, vertex_of(load, p), &on_edge);
+        const yb_vertex_t *at = vertex_of(load, p);
+        half_t place = locate(load, 4 * t, at);
         bool is_corner = false; /* of the frame: it is there */
-        for (int k = 0; k < 3; k++, e = next_of(e)) {
+        for (half_t e = 4 * triangle_of(place); !is_inside(e); e++) {
             int v = origin_of(load, e);
             if (v == p)
                 is_corner = true;
-            else if (same_place(vertex_of(load, v), vertex_of(load, p)))
+            else if (same_place(vertex_of(load, v), at))
                 return YB_ERR_CORRUPT;
         }
         if (is_corner)
             continue;
-        split(load, e, on_edge, p);
+        split(load, place, p);
         mesh_legalise(load, p);
         t = (int)load->star[p];
     }
