@@ -131,7 +131,7 @@ static yb_status_t fan(yb_load_t *load, const yb_contour_t *line)
     }
     for (int p = line->first; p < end; p++) {
         int summit = load->wish[p];
-        if (summit != p && mesh_sees(load, p, summit) && mesh_force_edge(load, p, summit) != YB_OK)
+        if (summit != p && mesh_link(load, p, summit) < 0)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
@@ -188,7 +188,7 @@ static void find_next(const yb_load_t *load, search_t *search)
 
 /* Links p to the next line where the segment to its peak comes nearest to a point of it. Only to
  * points that are at most a quarter farther than the nearest: where there is none, the slope leads
- * elsewhere, whatever the peak.
+ * elsewhere, whatever the peak. YB_MORE: it sees none of the first few.
  */
 static yb_status_t link_down(yb_load_t *load, int p, const yb_contour_t *line)
 {
@@ -204,14 +204,12 @@ static yb_status_t link_down(yb_load_t *load, int p, const yb_contour_t *line)
     search.far = search.off + (search.off >> 2);
     search.peak = ruler->first;
     search.off = -1;
-    for (int tries = 0; tries < MOST_TRIES; tries++) {
+    yb_status_t status = YB_MORE;
+    for (int tries = 0; tries < MOST_TRIES && status == YB_MORE; tries++) {
         find_next(load, &search);
-        if (search.point < 0)
-            return YB_OK;
-        if (mesh_sees(load, p, search.point))
-            return mesh_force_edge(load, p, search.point);
+        status = search.point < 0 ? YB_OK : mesh_link(load, p, search.point);
     }
-    return YB_OK;
+    return status;
 }
 
 /* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
@@ -244,7 +242,7 @@ static yb_status_t apply_rules(yb_load_t *load)
             continue;
         int end = line->first + line->count;
         for (int p = line->first; p < end; p++) {
-            if (link_down(load, p, line) != YB_OK)
+            if (link_down(load, p, line) < 0)
                 return YB_ERR_LIMIT;
         }
     }

@@ -190,6 +190,9 @@ void mesh_make_delaunay(yb_load_t *load);
 /* Can ab become an edge? Not if a marked edge or a vertex is in its way. */
 bool mesh_sees(const yb_load_t *load, int a, int b);
 
+/* Makes it one; YB_MORE if it cannot. */
+YB_MUST_CHECK yb_status_t mesh_link(yb_load_t *load, int a, int b);
+
 /* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
 YB_MUST_CHECK yb_status_t regions_find(yb_load_t *load);
 

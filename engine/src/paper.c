@@ -49,7 +49,7 @@ static yb_status_t take_header(yb_load_t *load, uint32_t field)
     yb_map_t *map = load->map;
     switch ((enum state)load->state++) {
     case FLAGS:
-        load->flags = (uint8_t)field;
+        load->flags = field;
         map->smooth = (field & FLAG_STRAIGHT) == 0;
         break;
     case CONTOURS:
@@ -211,11 +211,11 @@ yb_status_t paper_take(yb_load_t *load, uint8_t byte)
         [STEP] = 12,  [END] = 8,
     };
     load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
-    load->bits_held = (uint8_t)(load->bits_held + 8);
+    load->bits_held += 8;
     yb_status_t status = YB_MORE;
     uint8_t bits = yb_rom_u8(&width[load->state]);
     while (status == YB_MORE && load->bits_held >= bits) {
-        load->bits_held = (uint8_t)(load->bits_held - bits);
+        load->bits_held -= bits;
         status = take_field(load, load->bits >> load->bits_held & (((uint32_t)1 << bits) - 1));
         bits = yb_rom_u8(&width[load->state]);
     }

@@ -336,6 +336,11 @@ bool mesh_sees(const yb_load_t *load, int a, int b)
     return false;
 }
 
+yb_status_t mesh_link(yb_load_t *load, int a, int b)
+{
+    return mesh_sees(load, a, b) ? mesh_force_edge(load, a, b) : YB_MORE;
+}
+
 static yb_status_t force_contours(yb_load_t *load)
 {
     for (int i = 0; i < load->contour_count; i++) {

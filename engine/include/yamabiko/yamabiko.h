@@ -226,17 +226,17 @@ typedef struct {
             yb_ring_t last; /* step */
         };
         struct { /* paper.c */
-            uint32_t bits;
-            uint8_t bits_held, flags;
+            uint32_t bits, flags;
+            int bits_held;
         };
         struct { /* links.c, saddles.c: lines with passes between, where those lead to; */
             int32_t level_q8, other_q8;
-            yb_index_t here; /* the region whose rules are applied */
+            int here; /* the region whose rules are applied */
         };
     };
     /* private: what both find */
-    int32_t corner_height[4];
     int32_t frame_height;
+    int32_t corner_height[4];
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
     /* A contour has a vertex of its own with a number no smaller, and a skeleton's points come
      * after all others: contours and, from first_skeleton on, these points never want the same
