@@ -15,6 +15,9 @@ enum {
 /* One in the units of fix_log2_q11. */
 #define ONE_Q11 ((int32_t)2048)
 
+/* The logarithm of nothing: what is added to it does not count. */
+#define NOTHING_Q11 (-((int32_t)1 << 30))
+
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
 
 static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
@@ -145,8 +148,8 @@ static int32_t log2_square_q11(uint32_t half_square)
     return fix_log2_q11(half_square) - 14 * ONE_Q11;
 }
 
-/* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or INT32_MIN if no
- * edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18, and
+/* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or NOTHING_Q11 if
+ * no edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18, and
  * kept with 8 more bits where it is small enough; 1020 terms.
  */
 static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
@@ -168,22 +171,21 @@ static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
         sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
                                    : (uint64_t)fix_exp2_q11(term) << 8;
     }
-    if (edges == 0 || sum < edges)
-        return INT32_MIN;
+    if (sum < edges)
+        return NOTHING_Q11;
     return fix_log2_q11(sum / edges) - 8 * ONE_Q11;
 }
 
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
- * edge one step long; INT32_MIN for none.
+ * edge one step long.
  */
 static int32_t log2_amplitude(const yb_load_t *load, int32_t hurst_q8)
 {
     /* A midpoint of fractional Brownian motion strays by L^H 2^-H sqrt(1 - 2^(2H-2)). */
     uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * ONE_Q11);
-    int32_t roughness = log2_roughness(load, hurst_q8);
-    if (rest == 0 || load->gain == 0 || roughness == INT32_MIN)
-        return INT32_MIN;
-    int32_t variance = roughness + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
+    if (rest == 0 || load->gain == 0)
+        return NOTHING_Q11;
+    int32_t variance = log2_roughness(load, hurst_q8) + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
     return (variance >> 1) + fix_log2_q11(load->gain) - 5 * ONE_Q11;
 }
 
@@ -208,11 +210,8 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
     for (int c = 0; c < YB_LENGTH_CLASSES; c++) {
         /* The class stands for the geometric middle of its lengths: log2 (L/2)^2 = c/2 + 1/4. */
         int32_t length = (fix_min(c, LONGEST_CLASS) * 1024 + 512 - 14 * ONE_Q11) >> 1;
-        uint32_t scale = 0;
-        if (amplitude != INT32_MIN) {
-            int32_t e = amplitude + ((hurst_q8 * length) >> 8);
-            scale = fix_exp2_q11(e + RELIEF_NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
-        }
+        uint32_t scale = fix_exp2_q11(amplitude + ((hurst_q8 * length) >> 8) +
+                                      RELIEF_NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
         map->noise[c] = (uint16_t)(scale > 65535 ? 65535 : scale);
         uint32_t move = most_move(map->noise[c], c);
         uint32_t reach = scale == 0 ? 0 : 2 * move + (c >= 4 ? map->reach_q8[c - 4] : 0u);
