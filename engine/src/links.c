@@ -253,8 +253,7 @@ static yb_status_t apply_rules(yb_load_t *load)
 static bool seen_before(const yb_load_t *load, int side)
 {
     for (int k = 0; k < side; k++) {
-        const yb_contour_t *c = &load->contour[k >> 1];
-        if (is_line(c) && ((k & 1) == 0 ? c->left : c->right) == load->here)
+        if (is_line(&load->contour[k >> 1]) && region_beside(load, k) == load->here)
             return true;
     }
     return false;
@@ -264,9 +263,8 @@ yb_status_t links_add(yb_load_t *load)
 {
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
-        const yb_contour_t *c = &load->contour[side >> 1];
-        load->here = (side & 1) == 0 ? c->left : c->right;
-        if (is_line(c) && !seen_before(load, side) && apply_rules(load) != YB_OK)
+        load->here = region_beside(load, side);
+        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) && apply_rules(load) != YB_OK)
             return YB_ERR_LIMIT;
     }
     mesh_make_delaunay(load);

@@ -196,6 +196,9 @@ YB_MUST_CHECK yb_status_t mesh_link(yb_load_t *load, int a, int b);
 /* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
 YB_MUST_CHECK yb_status_t regions_find(yb_load_t *load);
 
+/* The region on side k of the contours: the left one of contour k / 2, or, k odd, its right one. */
+int region_beside(const yb_load_t *load, int k);
+
 /* Section 3: a summit, or the bottom of a pit, for every region of one height (SPEC 2.4). */
 YB_MUST_CHECK yb_status_t summits_add(yb_load_t *load);
 

@@ -52,3 +52,9 @@ yb_status_t regions_find(yb_load_t *load)
     /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */
     return load->region_count == lines + 1 ? YB_OK : YB_ERR_CORRUPT;
 }
+
+int region_beside(const yb_load_t *load, int k)
+{
+    const yb_contour_t *contour = &load->contour[k >> 1];
+    return (k & 1) == 0 ? contour->left : contour->right;
+}

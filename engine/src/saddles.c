@@ -194,13 +194,6 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair)
     return status;
 }
 
-static yb_index_t group_of(const yb_load_t *load, int line)
-{
-    while (load->group[line] != line)
-        line = load->group[line];
-    return (yb_index_t)line;
-}
-
 /* The line of this level that a spot height stands behind, if it is a peak: if it lies on the far
  * side of the line's height. Else NOWHERE.
  */
@@ -214,23 +207,19 @@ static int peak_behind(const yb_load_t *load, const yb_contour_t *spot)
     return peak ? number_of(load, line) : NOWHERE;
 }
 
-/* The nearest pair of peaks (wish[s]: the line that spot height s stands behind) whose lines are
- * not joined yet and that comes after the last one, in the order of distance, then of the spot
- * heights' numbers. False: there is none.
+/* The nearest pair of peaks whose lines are not joined yet and that comes after the last one, in the
+ * order of distance, then of the spot heights' numbers. False: there is none.
  */
 static bool next_pair(const yb_load_t *load, pair_t *pair)
 {
     pair_t next = {.apart = INT32_MAX};
     for (int a = 0; a < all_contours(load); a++) {
-        int line_a = load->wish[a];
-        for (int b = a + 1; b < all_contours(load) && line_a != NOWHERE; b++) {
-            int line_b = load->wish[b];
-            if (line_b == NOWHERE || group_of(load, line_a) == group_of(load, line_b))
+        for (int b = a + 1; b < all_contours(load) && load->group[a] != NOWHERE; b++) {
+            if (load->group[b] == NOWHERE || load->group[a] == load->group[b])
                 continue;
             int32_t apart = edge_length(load, load->contour[a].first, load->contour[b].first);
             bool after = a > pair->a || (a == pair->a && b > pair->b);
-            if (apart < next.apart &&
-                (apart > pair->apart || (apart == pair->apart && after)))
+            if (apart < next.apart && (apart > pair->apart || (apart == pair->apart && after)))
                 next = (pair_t){a, b, apart};
         }
     }
@@ -238,31 +227,38 @@ static bool next_pair(const yb_load_t *load, pair_t *pair)
     return next.apart < INT32_MAX;
 }
 
+static void join_groups(yb_load_t *load, yb_index_t from, yb_index_t to)
+{
+    for (int s = 0; s < all_contours(load); s++) {
+        if (load->group[s] == from)
+            load->group[s] = to;
+    }
+}
+
 /* Nearest pairs first, until all are joined or too many could not be (7). What is left, the
- * skeleton joins.
+ * skeleton joins. wish[s] is the line that spot height s stands behind, group[s] one of those that
+ * are joined to it.
  */
 static yb_status_t join_level(yb_load_t *load)
 {
     pair_t pair = {.apart = -1};
     int refusals = 0;
     for (int s = 0; s < all_contours(load); s++)
-        load->wish[s] = (yb_index_t)peak_behind(load, &load->contour[s]);
+        load->wish[s] = load->group[s] = (yb_index_t)peak_behind(load, &load->contour[s]);
     while (refusals < MOST_REFUSALS && next_pair(load, &pair)) {
         yb_status_t status = join(load, &pair);
+        if (status < 0)
+            return YB_ERR_LIMIT;
         if (status == YB_MORE)
             refusals++;
-        else if (status == YB_OK)
-            load->group[group_of(load, load->wish[pair.a])] = group_of(load, load->wish[pair.b]);
         else
-            return YB_ERR_LIMIT;
+            join_groups(load, load->group[pair.a], load->group[pair.b]);
     }
     return YB_OK;
 }
 
 yb_status_t saddles_add(yb_load_t *load)
 {
-    for (int c = 0; c < load->contour_count; c++)
-        load->group[c] = (yb_index_t)c;
     const yb_contour_t *line = load->contour;
     for (; (line = line_from(load, line)) != NULL; line++) {
         load->level_q8 = height_of(load, line);

@@ -203,11 +203,10 @@ yb_status_t summits_add(yb_load_t *load)
     for (bool changed = true; changed;) {
         changed = false;
         for (int c = 0; c < 2 * load->contour_count; c++) {
-            const yb_contour_t *contour = &load->contour[c >> 1];
-            int region = (c & 1) == 0 ? contour->left : contour->right;
+            int region = region_beside(load, c);
             if ((load->ground[region] & FLAT) == 0 || !look_beside(load, region))
                 continue;
-            int32_t h = height_at(load, contour->first);
+            int32_t h = height_at(load, load->contour[c >> 1].first);
             spot_t spot = widest_place(load, region);
             int32_t rise = rise_inside(load, region, h);
             if (fix_abs(h + rise) > YB_MAX_HEIGHT_Q8)

@@ -257,7 +257,7 @@ typedef struct {
         struct {                               /* links.c, saddles.c */
             yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
             yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
-            yb_index_t group[YB_MAX_CONTOURS]; /* lines that are joined */
+            yb_index_t group[YB_MAX_CONTOURS]; /* of a peak, its line or one joined to that */
         };
         /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
         uint32_t way[YB_MAX_VERTICES];
