@@ -130,13 +130,13 @@ static int decide(yb_load_t *load, int model_index)
     return bit;
 }
 
-static uint16_t decide_uniform(yb_load_t *load, uint32_t count)
+static int decide_uniform(yb_load_t *load, uint32_t count)
 {
     uint32_t part = load->range / count;
     uint32_t value = (uint32_t)fix_min((int32_t)(load->code / part), (int32_t)count - 1);
     load->code -= value * part;
     load->range = part;
-    return (uint16_t)value;
+    return (int)value;
 }
 
 /* One decision. True when the element is complete in load->value. */
@@ -144,7 +144,7 @@ static bool decide_element(yb_load_t *load)
 {
     switch ((enum element)load->element) {
     case UNIFORM:
-        load->value = decide_uniform(load, load->at + 1u);
+        load->value = (uint16_t)decide_uniform(load, load->at + 1u);
         return true;
     case BIT:
         load->value = (uint16_t)decide(load, load->at);

@@ -56,27 +56,33 @@ static int beginning_of(const yb_load_t *load, int v)
     return v;
 }
 
+/* How steep the ground rises, or, below 0, falls from a to b, in 1/256. Rises are within 2^18. */
+static int32_t slope_to(const yb_load_t *load, int a, int b)
+{
+    return (height_at(load, b) - height_at(load, a)) * 256 / edge_length(load, a, b);
+}
+
 /* How steep the ground is from which the branch with the first point m comes, in 1/256: the
  * steepest edge that goes on beyond, or else that to m. Where branches from two peaks meet, ways
- * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1). Rises are within 2^18.
+ * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1).
  */
 static uint32_t steepness(const yb_load_t *load, int m)
 {
     int p = load->branch[m].parent;
-    int32_t up = height_at(load, p) - height_at(load, m);
-    int32_t slope = 0;
+    bool falls = height_at(load, p) < height_at(load, m);
+    int32_t steepest = 0;
     for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
         for (int k = 0; k < 2; k++) {
             int q = k == 0 ? end_of(load, e) : apex_of(load, e);
-            int32_t on = height_at(load, q) - height_at(load, p);
-            if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
-                slope = fix_max(slope, (fix_abs(on) << 8) / edge_length(load, p, q));
+            if (q < load->first_skeleton) {
+                int32_t slope = slope_to(load, p, q);
+                steepest = fix_max(steepest, falls ? -slope : slope);
             }
         }
     }
-    if (slope == 0)
-        slope = (fix_abs(up) << 8) / edge_length(load, p, m);
-    return (uint32_t)fix_clamp(slope, 1, 1 << 14);
+    if (steepest == 0)
+        steepest = fix_abs(slope_to(load, p, m));
+    return (uint32_t)fix_clamp(steepest, 1, 1 << 14);
 }
 
 /* A way and one edge more, weighted, as far as 32 bits go. Weights are at most 2^14 and lengths
