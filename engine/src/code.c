@@ -58,8 +58,8 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
     return status;
 }
 
-/* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits. Counted
- * from the lowest height, so that the division rounds down.
+/* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits.
+ * Counted from the lowest height, so that the division rounds down.
  */
 bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
 {

@@ -264,7 +264,8 @@ yb_status_t links_add(yb_load_t *load)
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
         load->here = region_beside(load, side);
-        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) && apply_rules(load) != YB_OK)
+        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) &&
+            apply_rules(load) != YB_OK)
             return YB_ERR_LIMIT;
     }
     mesh_make_delaunay(load);

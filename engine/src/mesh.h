@@ -174,7 +174,8 @@ YB_MUST_CHECK yb_status_t mesh_triangulate(yb_load_t *load);
  */
 YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at);
 
-/* The same, and splits the triangle that it lies in at it, or, on an edge, both. Nothing is flipped.
+/* The same, and splits the triangle that it lies in at it, or, on an edge, both. Nothing is
+ * flipped.
  */
 YB_MUST_CHECK yb_status_t mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at);
 

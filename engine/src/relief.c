@@ -78,9 +78,9 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
 
 /* --- The constants of the map ----------------------------------------------------------------- */
 
-/* The slope -sum / sum_z, with 11 bits, cut: sums count heights in 1/256 step and plan differences in
- * 1/64 step, 2 bits; 9 more make 2^58 in all, and the steepest slope less than 2^62. Counted from the
- * steepest one downwards, so that the division rounds down, like everything.
+/* The slope -sum / sum_z, with 11 bits, cut: sums count heights in 1/256 step and plan differences
+ * in 1/64 step, 2 bits; 9 more make 2^58 in all, and the steepest slope less than 2^62. Counted
+ * from the steepest one downwards, so that the division rounds down, like everything.
  */
 static int16_t slope_q11(int64_t sum, int64_t sum_z)
 {
@@ -126,9 +126,12 @@ static void limit_slope(const yb_load_t *load, int v)
 {
     yb_vertex_t *a = &load->map->vertex[v];
     int32_t share_q15 = 32768;
-    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
-        for (int i = 0; i < 2; i++) {
-            const yb_vertex_t *b = vertex_of(load, i == 0 ? end_of(load, e) : apex_of(load, e));
+    half_t next = first_spoke(load, v);
+    while (next != NO_HALF) { /* from neighbour to neighbour: the last triangle may have two */
+        half_t e = next;
+        next = spoke_after(load, e);
+        for (int i = next == NO_HALF ? 0 : 1; i < 2; i++) {
+            const yb_vertex_t *b = vertex_of(load, i == 0 ? apex_of(load, e) : end_of(load, e));
             int32_t s =
                 a->gx_q11 * fix_minus(b->x_q8, a->x_q8) + a->gy_q11 * fix_minus(b->y_q8, a->y_q8);
             int32_t most = (b->z_q8 - a->z_q8) * 3072;
@@ -149,8 +152,8 @@ static int32_t log2_square_q11(uint32_t half_square)
 }
 
 /* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or NOTHING_Q11 if
- * no edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18, and
- * kept with 8 more bits where it is small enough; 1020 terms.
+ * no edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18,
+ * and kept with 8 more bits where it is small enough; 1020 terms.
  */
 static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
 {
@@ -185,7 +188,8 @@ static int32_t log2_amplitude(const yb_load_t *load, int32_t hurst_q8)
     uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * ONE_Q11);
     if (rest == 0 || load->gain == 0)
         return NOTHING_Q11;
-    int32_t variance = log2_roughness(load, hurst_q8) + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
+    int32_t variance =
+        log2_roughness(load, hurst_q8) + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
     return (variance >> 1) + fix_log2_q11(load->gain) - 5 * ONE_Q11;
 }
 

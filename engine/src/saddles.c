@@ -207,8 +207,8 @@ static int peak_behind(const yb_load_t *load, const yb_contour_t *spot)
     return peak ? number_of(load, line) : NOWHERE;
 }
 
-/* The nearest pair of peaks whose lines are not joined yet and that comes after the last one, in the
- * order of distance, then of the spot heights' numbers. False: there is none.
+/* The nearest pair of peaks whose lines are not joined yet and that comes after the last one, in
+ * the order of distance, then of the spot heights' numbers. False: there is none.
  */
 static bool next_pair(const yb_load_t *load, pair_t *pair)
 {

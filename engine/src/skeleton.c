@@ -88,8 +88,7 @@ static uint32_t steepness(const yb_load_t *load, int m)
 /* A way and one edge more, weighted, as far as 32 bits go. Weights are at most 2^14 and lengths
  * below 2^17: the edge adds less than 2^26.
  */
-static uint32_t add_way(const yb_load_t *load, uint32_t way, uint32_t weight, int a,
-                        int b)
+static uint32_t add_way(const yb_load_t *load, uint32_t way, uint32_t weight, int a, int b)
 {
     uint32_t sum = way + weight * (uint32_t)(edge_length(load, a, b) >> 5);
     return sum < way ? UINT32_MAX : sum;
@@ -234,8 +233,9 @@ static void measure_ways(yb_load_t *load)
             uint32_t way = load->way[v] + (uint32_t)edge_length(load, p, v);
             if (way > load->way[p]) {
                 load->way[p] = way;
-                load->branch[p].end =
-                    (yb_index_t)(meets(load, v) ? v : branch->end == v ? p : branch->end);
+                load->branch[p].end = (yb_index_t)(meets(load, v)     ? v
+                                                   : branch->end == v ? p
+                                                                      : branch->end);
             }
         }
     }

@@ -69,9 +69,9 @@ static void flip(yb_load_t *load, half_t e)
     put_facet(load, u, &q);
 }
 
-/* Does d lie inside the circle through the corners of a triangle? Above 0: yes, 0: on it. Differences
- * in 1/64 steps are within 2^14, squares of length 2^29, areas 2^29: each of the three terms is
- * below 2^58.
+/* Does d lie inside the circle through the corners of a triangle? Above 0: yes, 0: on it.
+ * Differences in 1/64 steps are within 2^14, squares of length 2^29, areas 2^29: each of the three
+ * terms is below 2^58.
  */
 static int64_t in_circle(const yb_load_t *load, const yb_index_t corner[3], int d)
 {
@@ -160,8 +160,7 @@ static void split(yb_load_t *load, half_t place, int p)
     int before = 2;
     for (int k = 0; k < 3; k++) {
         int after = next3(k);
-        facet_t facet = {{f.v[k], f.v[after], p},
-                         {f.across[k], part[after], part[before]}};
+        facet_t facet = {{f.v[k], f.v[after], p}, {f.across[k], part[after], part[before]}};
         before = k;
         if (part[k] == NO_TRIANGLE)
             continue;
@@ -249,9 +248,8 @@ static half_t edge_to(const yb_load_t *load, half_t e, int b)
 static half_t towards(const yb_load_t *load, int a, int b)
 {
     for (half_t e = first_spoke(load, a); e != NO_HALF; e = spoke_after(load, e)) {
-        if (edge_to(load, e, b) != NO_HALF ||
-            (orientation(load, a, end_of(load, e), b) > 0 &&
-             orientation(load, a, b, apex_of(load, e)) > 0))
+        if (edge_to(load, e, b) != NO_HALF || (orientation(load, a, end_of(load, e), b) > 0 &&
+                                               orientation(load, a, b, apex_of(load, e)) > 0))
             return e;
     }
     return NO_HALF;
