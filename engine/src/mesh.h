@@ -50,7 +50,7 @@ static inline int triangle_of(half_t e)
 }
 
 /* The place of a point in the mesh: the half that it lies on, or, inside triangle t, 4t + 3. */
-static inline half_t inside_of(half_t e)
+static inline half_t place_inside(half_t e)
 {
     return e | 3;
 }

@@ -118,7 +118,7 @@ static bool has_corner_on(const yb_load_t *load, half_t e, const yb_contour_t *l
  */
 static half_t place_in(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
-    half_t place = inside_of(e);
+    half_t place = place_inside(e);
     for (; !is_inside(e); e++) {
         int32_t side = side_of(load, e, p);
         if (side < 0 || (side == 0 && (!is_inside(place) || is_marked(load, e))))

@@ -179,7 +179,7 @@ static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
         const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
         summit.x_q8 = fix_middle(summit.x_q8, c->x_q8);
         summit.y_q8 = fix_middle(summit.y_q8, c->y_q8);
-        e = inside_of(e);
+        e = place_inside(e);
     }
     if (mesh_insert(load, e, &summit) != YB_OK)
         return YB_ERR_LIMIT;

@@ -124,11 +124,11 @@ void mesh_legalise(yb_load_t *load, int p)
  */
 static half_t locate(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
-    half_t place = inside_of(e);
+    half_t place = place_inside(e);
     while (!is_inside(e)) {
         int32_t side = side_of(load, e, p);
         if (side < 0) { /* p is in the frame: there is a triangle beyond */
-            place = inside_of(twin_of(load, e));
+            place = place_inside(twin_of(load, e));
             e = place - 3;
             continue;
         }
