@@ -127,7 +127,7 @@ static yb_status_t fan(yb_load_t *load, const yb_contour_t *line)
     for (int p = line->first; p < end; p++) {
         const yb_contour_t *ruler = ruler_of(load, p, NULL);
         bool linked = ruler != NULL && !by_a_ridge(load, p, ruler->first);
-        load->wish[p] = linked ? ruler->first : (yb_index_t)p;
+        load->wish[p] = (yb_index_t)(linked ? ruler->first : p);
     }
     for (int p = line->first; p < end; p++) {
         int summit = load->wish[p];

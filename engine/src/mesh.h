@@ -21,8 +21,6 @@
 #ifndef YB_MESH_H
 #define YB_MESH_H
 
-#include <limits.h>
-
 #include <yamabiko/yamabiko.h>
 
 #include "fix.h"
@@ -42,7 +40,7 @@ typedef int half_t;
 enum {
     NO_HALF = -1
 };
-_Static_assert(YB_MAX_TRIANGLES <= INT_MAX / 4, "halves are numbered by an int");
+_Static_assert(sizeof(half_t) >= 4 || YB_MAX_TRIANGLES < 8192, "an int numbers all halves");
 
 static inline int triangle_of(half_t e)
 {
