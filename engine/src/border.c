@@ -45,7 +45,7 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
     uint32_t round = 2 * ((uint32_t)load->map->east_q8 + load->map->north_q8);
     uint32_t way = way_of(load, corner);
     uint32_t ahead = round;
-    uint32_t farthest = 0; /* ahead: the nearest behind */
+    uint32_t behind = round;
     int32_t height_ahead = load->frame_height;
     int32_t height_behind = load->frame_height;
     for (int i = 0; i < load->map->vertex_count; i++) {
@@ -58,8 +58,8 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
             ahead = d;
             height_ahead = v->z_q8;
         }
-        if (d > farthest) {
-            farthest = d;
+        if (round - d < behind) {
+            behind = round - d;
             height_behind = v->z_q8;
         }
     }
@@ -67,7 +67,6 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
      * ways, which are multiples of 16, below 2^18 in all: products stay below 2^32. */
     bool falls = height_ahead < height_behind;
     uint32_t rise = (uint32_t)fix_abs(height_ahead - height_behind);
-    uint32_t behind = round - farthest;
     uint32_t whole = (ahead + behind) >> 4;
     uint32_t part = (falls ? ahead : behind) >> 4;
     return (int32_t)((rise * part + whole / 2) / whole) + fix_min(height_ahead, height_behind);
