@@ -9,9 +9,8 @@ static yb_status_t check_contour(const yb_load_t *load, yb_contour_t *contour)
     contour->open = contour->count > 1 && on_frame(load, first) && on_frame(load, last);
     if (contour->count == 2) {
         /* A straight line across: not along one side, where it would bound nothing. */
-        yb_vertex_t middle = *first;
-        middle.x_q8 = fix_middle(first->x_q8, last->x_q8);
-        middle.y_q8 = fix_middle(first->y_q8, last->y_q8);
+        yb_vertex_t middle = {.x_q8 = fix_middle(first->x_q8, last->x_q8),
+                              .y_q8 = fix_middle(first->y_q8, last->y_q8)};
         return contour->open && !on_frame(load, &middle) ? YB_OK : YB_ERR_CORRUPT;
     }
     if (contour->open) {
