@@ -360,11 +360,15 @@ static int take_way(yb_load_t *load, int way)
     load->start_way = way;
     bool far = way >= half;
     way -= far ? half : 0;
-    int x = (int)fix_min(way, load->columns);
-    int y = way - x;
-    load->last = (yb_ring_t){1, ((way < load->columns ? 2 : 4) + (far ? 4 : 0)) & 7};
-    load->x = far ? load->columns - x : x;
-    load->y = far ? load->rows - y : y;
+    load->x = (int)fix_min(way, load->columns);
+    load->y = way - load->x;
+    int inward = way < load->columns ? 2 : 4; /* north, or west; then south, or east */
+    if (far) {
+        load->x = load->columns - load->x;
+        load->y = load->rows - load->y;
+        inward = (inward + 4) & 7;
+    }
+    load->last = (yb_ring_t){1, inward};
     load->turn_context = TURN_INWARD;
     return LINE_HEIGHT;
 }
