@@ -21,11 +21,12 @@ bool bounds(const yb_load_t *load, const yb_contour_t *contour)
     return is_line(contour) && (contour->left == load->here || contour->right == load->here);
 }
 
-const yb_contour_t *line_from(const yb_load_t *load, const yb_contour_t *contour)
+const yb_contour_t *line_after(const yb_load_t *load, const yb_contour_t *line)
 {
-    for (; contour < load->contour + load->contour_count; contour++) {
-        if (bounds(load, contour))
-            return contour;
+    line = line == NULL ? load->contour : line + 1;
+    for (; line < load->contour + load->contour_count; line++) {
+        if (bounds(load, line))
+            return line;
     }
     return NULL;
 }
@@ -35,11 +36,10 @@ static void look_beyond(yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
         load->way_to[r] = NOWHERE;
-    const yb_contour_t *line = load->contour;
-    while ((line = line_from(load, line)) != NULL) {
+    const yb_contour_t *line = NULL;
+    while ((line = line_after(load, line)) != NULL) {
         int beyond = line->left == load->here ? line->right : line->left;
         load->way_to[beyond] = (yb_index_t)number_of(load, line);
-        line++;
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
     bool changed = true;
@@ -165,8 +165,8 @@ static void find_next(const yb_load_t *load, search_t *search)
 {
     int32_t off = INT32_MAX;
     int point = -1;
-    const yb_contour_t *line = load->contour;
-    for (; (line = line_from(load, line)) != NULL; line++) {
+    const yb_contour_t *line = NULL;
+    while ((line = line_after(load, line)) != NULL) {
         if (height_of(load, line) != search->h)
             continue;
         int end = line->first + line->count;
@@ -231,13 +231,13 @@ static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
 
 static yb_status_t apply_rules(yb_load_t *load)
 {
-    const yb_contour_t *line = line_from(load, load->contour);
-    if (line_from(load, line + 1) == NULL)
+    const yb_contour_t *line = line_after(load, NULL);
+    if (line_after(load, line) == NULL)
         return fan(load, line);
     look_beyond(load);
     if (saddles_add(load) != YB_OK)
         return YB_ERR_LIMIT;
-    for (; line != NULL; line = line_from(load, line + 1)) {
+    for (; line != NULL; line = line_after(load, line)) {
         if (!is_outer(load, line))
             continue;
         int end = line->first + line->count;

@@ -34,11 +34,8 @@ int32_t height_of(const yb_load_t *load, const yb_contour_t *contour);
 /* Does this contour, as a line, bound the region? */
 bool bounds(const yb_load_t *load, const yb_contour_t *contour);
 
-/* The first of the lines round the region among a contour and those after it, or NULL. All of them:
- *
- *     for (line = line_from(load, load->contour); line != NULL; line = line_from(load, line + 1))
- */
-const yb_contour_t *line_from(const yb_load_t *load, const yb_contour_t *contour);
+/* The next line round the region, the first one after NULL; NULL: there is none. */
+const yb_contour_t *line_after(const yb_load_t *load, const yb_contour_t *line);
 
 /* The line of the region behind which a spot height lies, or NULL. */
 const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot);

@@ -14,12 +14,12 @@ enum {
 static int32_t other_height(const yb_load_t *load, int32_t h)
 {
     int32_t nearest = h;
-    const yb_contour_t *line = line_from(load, load->contour);
+    const yb_contour_t *line = line_after(load, NULL);
     for (int k = 0; k < 4;) {
         int32_t z = h;
         if (line != NULL) {
             z = height_of(load, line);
-            line = line_from(load, line + 1);
+            line = line_after(load, line);
         } else {
             int corner = load->corner[k++];
             if (load->region[load->star[corner]] == load->here)
@@ -78,8 +78,8 @@ static bool find_gap(const yb_load_t *load, const yb_contour_t *line_a, const yb
     gap->enters = 65537;
     gap->enters = find_crossing(load, line_b, gap, false);
     gap->leaves = find_crossing(load, line_a, gap, true);
-    const yb_contour_t *line = load->contour;
-    for (; (line = line_from(load, line)) != NULL; line++) {
+    const yb_contour_t *line = NULL;
+    while ((line = line_after(load, line)) != NULL) {
         if (find_crossing(load, line, gap, false) >= 0)
             return false;
     }
@@ -259,13 +259,13 @@ static yb_status_t join_level(yb_load_t *load)
 
 yb_status_t saddles_add(yb_load_t *load)
 {
-    const yb_contour_t *line = load->contour;
-    for (; (line = line_from(load, line)) != NULL; line++) {
+    const yb_contour_t *line = NULL;
+    while ((line = line_after(load, line)) != NULL) {
         load->level_q8 = height_of(load, line);
         load->other_q8 = other_height(load, load->level_q8);
-        const yb_contour_t *first = line_from(load, load->contour);
+        const yb_contour_t *first = line_after(load, NULL);
         while (height_of(load, first) != load->level_q8)
-            first = line_from(load, first + 1);
+            first = line_after(load, first);
         bool has_between = fix_abs(load->level_q8 - load->other_q8) >= 2;
         if (first == line && has_between && join_level(load) != YB_OK)
             return YB_ERR_LIMIT;
