@@ -111,7 +111,7 @@ static void ask(yb_load_t *load, int field)
     load->state = (uint8_t)field;
     load->element = yb_rom_u8(&question[field].element);
     load->at = (uint16_t)(load->at + yb_rom_u8(&question[field].argument));
-    load->value = 1; /* before the bits of what has some */
+    load->value = load->element == UNIFORM ? 0 : 1; /* before the bits of what has some */
     load->classes = 0;
 }
 
@@ -143,9 +143,6 @@ static int decide_uniform(yb_load_t *load, uint32_t count)
 static bool decide_element(yb_load_t *load)
 {
     switch ((enum element)load->element) {
-    case UNIFORM:
-        load->value = (uint16_t)decide_uniform(load, load->at + 1u);
-        return true;
     case BIT:
         load->value = (uint16_t)decide(load, load->at);
         return true;
@@ -162,9 +159,12 @@ static bool decide_element(yb_load_t *load)
             return false;
         }
         load->element = REST;
+        load->at = 1; /* a bit of the rest is one of two */
         break;
     default:
-        load->value = (uint16_t)(load->value << 1 | decide_uniform(load, 2));
+        load->value = (uint16_t)(load->value << 1 | decide_uniform(load, load->at + 1u));
+        if (load->element == UNIFORM)
+            return true;
     }
     if (load->value >> load->classes == 0)
         return false;
