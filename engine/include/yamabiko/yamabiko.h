@@ -229,9 +229,10 @@ typedef struct {
             uint32_t bits, flags;
             int bits_held;
         };
-        struct { /* links.c, saddles.c: lines with passes between, where those lead to; */
-            int32_t level_q8, other_q8;
-            int here; /* the region whose rules are applied */
+        struct {              /* links.c, saddles.c */
+            int32_t level_q8; /* of lines with passes between them, … */
+            int32_t other_q8; /* … and what those go down to */
+            int here;         /* the region whose rules are applied */
         };
     };
     /* private: what both find */
@@ -287,8 +288,8 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
 /* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
- * Cost: a hundred-byte code takes about 1.9 M instructions on a Cortex-M3, 251 scattered summits
- * 3.3 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * Cost: a hundred-byte code takes about 2.2 M instructions on a Cortex-M3, 251 scattered summits
+ * 4.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);
