@@ -29,6 +29,7 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
     memset(map, 0, offsetof(yb_map_t, vertex));
     memset(load, 0, offsetof(yb_load_t, contour));
     map->detail = true;
+    load->map = map;
     load->vertices_promised = YB_MAX_VERTICES;
     for (int i = 0; i < 4; i++)
         load->corner_height[i] = UNKNOWN_HEIGHT;
@@ -37,23 +38,39 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
 
 yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
+    load->map = map;
     map->vertex_count = load->point_count;
-    yb_status_t status = border_close(map, load);
+    yb_status_t status = border_close(load);
     if (status == YB_OK)
-        status = mesh_triangulate(map, load);
+        status = mesh_triangulate(load);
     if (status == YB_OK)
-        status = regions_find(map, load);
+        status = regions_find(load);
     load->first_summit = map->vertex_count;
     if (status == YB_OK)
-        status = summits_add(map, load);
+        status = summits_add(load);
     load->first_saddle = map->vertex_count;
     if (status == YB_OK)
-        status = links_add(map, load);
+        status = links_add(load);
     if (status == YB_OK)
-        status = skeleton_add(map, load);
+        status = skeleton_add(load);
     if (status == YB_OK)
-        relief_prepare(map, load);
+        relief_prepare(load);
     return status;
+}
+
+/* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits.
+ * Counted from the lowest height, so that the division rounds down.
+ */
+bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
+{
+    uint32_t cell = yb_unit_64th_m(map->cell);
+    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(map->unit) + rest_64th_m;
+    int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
+    if (above < 0)
+        return false;
+    uint64_t z_q8 = (uint64_t)above / cell;
+    *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
+    return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
 }
 
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */
@@ -84,12 +101,12 @@ static yb_status_t take_first(yb_load_t *load, uint8_t byte)
 }
 
 /* One byte of a section: kept if somebody wants it, else skipped. */
-static void take_section_byte(yb_map_t *map, yb_load_t *load, uint8_t byte)
+static void take_section_byte(yb_load_t *load, uint8_t byte)
 {
     if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 0)
-        map->certified_error = byte;
+        load->map->certified_error = byte;
     else if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 1)
-        map->certified_k = byte;
+        load->map->certified_k = byte;
     load->section_at++;
     if (load->section_at == load->section_size)
         load->part = (uint8_t)after_section(load);
@@ -103,7 +120,7 @@ static void begin_section(yb_load_t *load, uint16_t size)
 }
 
 /* What follows the relief. */
-static yb_status_t take_tail(yb_map_t *map, yb_load_t *load, uint8_t byte)
+static yb_status_t take_tail(yb_load_t *load, uint8_t byte)
 {
     switch ((enum part)load->part) {
     case SECTION_HEAD:
@@ -122,37 +139,38 @@ static yb_status_t take_tail(yb_map_t *map, yb_load_t *load, uint8_t byte)
         begin_section(load, (uint16_t)(load->section_size | byte));
         return YB_MORE;
     case SECTION_BODY:
-        take_section_byte(map, load, byte);
+        take_section_byte(load, byte);
         return YB_MORE;
     default:
-        return load->crc != 0 ? YB_ERR_CORRUPT : yb_map_build(map, load);
+        return load->crc != 0 ? YB_ERR_CORRUPT : yb_map_build(load->map, load);
     }
 }
 
-static yb_status_t take_byte(yb_map_t *map, yb_load_t *load, uint8_t byte)
+static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
 {
     load->crc = crc8(load->crc, byte);
     load->size++;
     if (load->part == FIRST)
         return take_first(load, byte);
     if (load->part != RELIEF)
-        return take_tail(map, load, byte);
+        return take_tail(load, byte);
     bool compact = load->profile == YB_COMPACT;
-    yb_status_t status = compact ? compact_take(map, load, byte) : paper_take(map, load, byte);
+    yb_status_t status = compact ? compact_take(load, byte) : paper_take(load, byte);
     if (status != YB_OK)
         return status;
     load->part = (uint8_t)after_section(load);
     /* The compact profile has read one byte ahead. */
     load->relief_size = (uint16_t)(load->size - (compact ? 1 : 0));
-    return compact ? take_tail(map, load, byte) : YB_MORE;
+    return compact ? take_tail(load, byte) : YB_MORE;
 }
 
 yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes, size_t count)
 {
+    load->map = map;
     if (load->result == YB_OK && count > 0)
         load->result = YB_ERR_CORRUPT;
     for (size_t i = 0; i < count && load->result == YB_MORE; i++) {
-        load->result = take_byte(map, load, bytes[i]);
+        load->result = take_byte(load, bytes[i]);
         if (load->result == YB_OK && i + 1 < count)
             load->result = YB_ERR_CORRUPT;
     }

@@ -17,8 +17,13 @@ enum {
 /* Each takes the next byte of the relief. YB_MORE until the byte that ends it, then YB_OK: for the
  * paper profile that is its last byte, for the compact one the first byte after it.
  */
-YB_MUST_CHECK yb_status_t paper_take(yb_map_t *map, yb_load_t *load, uint8_t byte);
-YB_MUST_CHECK yb_status_t compact_take(yb_map_t *map, yb_load_t *load, uint8_t byte);
+YB_MUST_CHECK yb_status_t paper_take(yb_load_t *load, uint8_t byte);
+YB_MUST_CHECK yb_status_t compact_take(yb_load_t *load, uint8_t byte);
+
+/* From units above the base to q8 steps; rest_64th_m is what base_m leaves of the base. False: too
+ * low or too high.
+ */
+bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height);
 
 /* Get ready for the byte after the first one. */
 void paper_begin(yb_load_t *load);

@@ -13,6 +13,7 @@ enum element {
     UNIFORM, /* one of n, all alike */
     BIT,
     NUMBER,
+    REST, /* of a number: the bits within its class */
     TURN
 };
 
@@ -110,9 +111,8 @@ static void ask(yb_load_t *load, int field)
     load->state = (uint8_t)field;
     load->element = yb_rom_u8(&question[field].element);
     load->at = (uint16_t)(load->at + yb_rom_u8(&question[field].argument));
-    load->value = load->element == TURN ? 1 : 0;
+    load->value = load->element == UNIFORM ? 0 : 1; /* before the bits of what has some */
     load->classes = 0;
-    load->left = 0;
 }
 
 static int decide(yb_load_t *load, int model_index)
@@ -130,55 +130,46 @@ static int decide(yb_load_t *load, int model_index)
     return bit;
 }
 
-static uint16_t decide_uniform(yb_load_t *load, uint32_t count)
+static int decide_uniform(yb_load_t *load, uint32_t count)
 {
     uint32_t part = load->range / count;
     uint32_t value = (uint32_t)fix_min((int32_t)(load->code / part), (int32_t)count - 1);
     load->code -= value * part;
     load->range = part;
-    return (uint16_t)value;
-}
-
-/* First the class, in unary, then the bits within it. True when the number is there. */
-static bool decide_number(yb_load_t *load)
-{
-    if (load->left == 0) {
-        int model = load->at + (int)fix_min(load->classes, NUMBER_MODELS - 1);
-        if (load->classes < MOST_CLASS && decide(load, model) != 0) {
-            load->classes++;
-            return false;
-        }
-        load->left = (uint8_t)(load->classes + 1);
-        load->value = 1;
-    } else {
-        load->value = (uint16_t)(load->value << 1 | decide_uniform(load, 2));
-    }
-    load->left--;
-    if (load->left > 0)
-        return false;
-    load->value--;
-    return true;
+    return (int)value;
 }
 
 /* One decision. True when the element is complete in load->value. */
 static bool decide_element(yb_load_t *load)
 {
     switch ((enum element)load->element) {
-    case UNIFORM:
-        load->value = decide_uniform(load, load->at + 1u);
-        return true;
     case BIT:
         load->value = (uint16_t)decide(load, load->at);
         return true;
-    case NUMBER:
-        return decide_number(load);
-    default:
+    case TURN:
         load->value = (uint16_t)(load->value << 1 | decide(load, load->at + load->value - 1));
         if (load->value < 8)
             return false;
         load->value -= 8;
         return true;
+    case NUMBER: /* the class, in unary */
+        if (load->classes < MOST_CLASS &&
+            decide(load, load->at + (int)fix_min(load->classes, NUMBER_MODELS - 1)) != 0) {
+            load->classes++;
+            return false;
+        }
+        load->element = REST;
+        load->at = 1; /* a bit of the rest is one of two */
+        break;
+    default:
+        load->value = (uint16_t)(load->value << 1 | decide_uniform(load, load->at + 1u));
+        if (load->element == UNIFORM)
+            return true;
     }
+    if (load->value >> load->classes == 0)
+        return false;
+    load->value--;
+    return true;
 }
 
 /* --- Header --------------------------------------------------------------------------------- */
@@ -195,72 +186,76 @@ static uint16_t place_q8(const yb_load_t *load, int line)
     return (uint16_t)((uint32_t)(line * load->spacing) << 8);
 }
 
-static int take_vertices(yb_map_t *map, yb_load_t *load, int value)
+static int take_vertices(yb_load_t *load, int value)
 {
     uint32_t vertices = value < 8 ? 32 * ((uint32_t)value + 1) : (uint32_t)512 << (value - 8);
     vertices -= (value & 7) == 7 ? 1 : 0; /* 255 and 65535: what an index can count */
     if (vertices > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
     load->vertices_promised = (uint16_t)vertices;
-    map->east_q8 = place_q8(load, load->columns);
-    map->north_q8 = place_q8(load, load->rows);
+    load->map->east_q8 = place_q8(load, load->columns);
+    load->map->north_q8 = place_q8(load, load->rows);
     load->start_x = load->columns / 2;
     load->start_y = load->rows / 2;
     return LINE_COUNT;
 }
 
-static int take_header(yb_map_t *map, yb_load_t *load, int value)
+/* Fields follow each other in the enum's order, but for those that are left out. */
+static int take_header(yb_load_t *load, int value)
 {
+    yb_map_t *map = load->map;
+    int next = load->state + 1;
     switch ((enum field)load->state) {
     case CELL_EXPONENT:
         map->cell = (uint16_t)value;
-        return CELL_MANTISSA;
+        break;
     case CELL_MANTISSA:
         /* Exponent 0: 0 to 255 64ths of a metre; else a ninth bit stands before the mantissa. */
         map->cell = (uint16_t)(map->cell == 0 ? value : (map->cell - 1) << 12 | 256 | value);
-        return map->cell == 0 ? YB_ERR_CORRUPT : (int)SPACING;
+        return map->cell == 0 ? YB_ERR_CORRUPT : next;
     case SPACING:
         load->spacing = (uint8_t)(value + 1);
         load->columns = load->rows = (uint8_t)(255 / load->spacing);
-        return OBLONG;
+        break;
     case OBLONG:
-        return value == 0 ? UNIT_EXPONENT : SHORTER;
+        return value == 0 ? UNIT_EXPONENT : next;
     case SHORTER:
         load->narrow = value != 0;
         load->at = (uint16_t)(load->columns - 1);
-        return SHORT_SIDE;
+        break;
     case SHORT_SIDE:
         *(load->narrow ? &load->columns : &load->rows) = (uint8_t)(value + 1);
-        return UNIT_EXPONENT;
+        break;
     case UNIT_EXPONENT:
         map->unit = (uint16_t)((unsigned)value << 12);
-        return UNIT_MANTISSA;
+        break;
     case UNIT_MANTISSA:
         map->unit = (uint16_t)(map->unit | 16 | value);
-        return COARSE;
+        break;
     case COARSE:
-        return value == 0 ? BASE : INTERVAL;
+        return value == 0 ? BASE : next;
     case INTERVAL:
         load->interval = (uint8_t)(value + 1);
-        return BASE;
+        break;
     case BASE:
         load->base = value;
-        return value == 0 ? DIMENSION : BASE_DOWN;
+        return value == 0 ? DIMENSION : next;
     case BASE_DOWN:
         load->base = value != 0 ? -load->base : load->base;
-        return DIMENSION;
+        break;
     case DIMENSION:
         map->hurst_q8m1 = (uint8_t)(255 - 8 * value);
-        return GAIN;
+        break;
     case GAIN:
         load->gain = gain_of(value);
-        return STRAIGHT;
+        break;
     case STRAIGHT:
         map->smooth = value == 0;
-        return VERTICES;
+        break;
     default:
-        return take_vertices(map, load, value);
+        return take_vertices(load, value);
     }
+    return next;
 }
 
 /* --- Points --------------------------------------------------------------------------------- */
@@ -276,11 +271,11 @@ static bool outside(const yb_load_t *load, int x, int y)
 /* Until the relief is complete a vertex's z is in units above the base; cut, so that sums of
  * however many differences below 2^18 fit.
  */
-static bool add_point(yb_map_t *map, yb_load_t *load, int32_t units)
+static bool add_point(yb_load_t *load, int32_t units)
 {
     if (load->point_count >= load->vertices_promised || outside(load, load->x, load->y))
         return false;
-    yb_vertex_t *point = &map->vertex[load->point_count];
+    yb_vertex_t *point = &load->map->vertex[load->point_count];
     point->x_q8 = place_q8(load, load->x);
     point->y_q8 = place_q8(load, load->y);
     point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
@@ -289,10 +284,10 @@ static bool add_point(yb_map_t *map, yb_load_t *load, int32_t units)
 }
 
 /* There are at most as many contours as points, so that there is room for one if for its point. */
-static bool begin_contour(yb_map_t *map, yb_load_t *load, int32_t units)
+static bool begin_contour(yb_load_t *load, int32_t units)
 {
     yb_index_t first = (yb_index_t)load->point_count;
-    if (!add_point(map, load, units))
+    if (!add_point(load, units))
         return false;
     yb_contour_t *contour = &load->contour[load->contour_count++];
     contour->first = first;
@@ -301,12 +296,12 @@ static bool begin_contour(yb_map_t *map, yb_load_t *load, int32_t units)
 }
 
 /* Height of the point nearest to the present place, of those known so far; 0 if none is. */
-static int32_t height_near(const yb_map_t *map, const yb_load_t *load)
+static int32_t height_near(const yb_load_t *load)
 {
     int32_t nearest = INT32_MAX;
     int32_t units = 0;
     for (int i = 0; i < load->point_count; i++) {
-        const yb_vertex_t *v = &map->vertex[i];
+        const yb_vertex_t *v = &load->map->vertex[i];
         int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
         int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
         int32_t d = dx * dx + dy * dy;
@@ -362,14 +357,18 @@ static int take_way(yb_load_t *load, int way)
     int half = load->columns + load->rows;
     way = (load->start_way + way) % (2 * half);
     way = way < 0 ? way + 2 * half : way;
-    load->start_way = (int16_t)way;
+    load->start_way = way;
     bool far = way >= half;
     way -= far ? half : 0;
-    int x = (int)fix_min(way, load->columns);
-    int y = way - x;
-    load->last = (yb_ring_t){1, (int16_t)(((way < load->columns ? 2 : 4) + (far ? 4 : 0)) & 7)};
-    load->x = (int16_t)(far ? load->columns - x : x);
-    load->y = (int16_t)(far ? load->rows - y : y);
+    load->x = (int)fix_min(way, load->columns);
+    load->y = way - load->x;
+    int inward = way < load->columns ? 2 : 4; /* north, or west; then south, or east */
+    if (far) {
+        load->x = load->columns - load->x;
+        load->y = load->rows - load->y;
+        inward = (inward + 4) & 7;
+    }
+    load->last = (yb_ring_t){1, inward};
     load->turn_context = TURN_INWARD;
     return LINE_HEIGHT;
 }
@@ -383,29 +382,29 @@ static int take_start(yb_load_t *load)
     return outside(load, load->x, load->y) ? YB_ERR_CORRUPT : (int)LINE_HEIGHT;
 }
 
-static int take_place(yb_map_t *map, yb_load_t *load, int rest)
+static int take_place(yb_load_t *load, int rest)
 {
     int n = load->length;
     int dx = 0;
     int dy = 0;
     int place = (ring_ahead(load->last, n) + load->sector * n + rest) % (8 * n);
-    load->last = (yb_ring_t){(int16_t)n, (int16_t)place};
+    load->last = (yb_ring_t){n, place};
     ring_step(load->last, &dx, &dy);
     load->turn_context = (uint8_t)turn_context(load->sector);
     load->length_context = (uint8_t)length_context(n);
-    load->x = (int16_t)(load->x + dx);
-    load->y = (int16_t)(load->y + dy);
+    load->x = load->x + dx;
+    load->y = load->y + dy;
     yb_contour_t *contour = &load->contour[load->contour_count - 1];
     if (load->open) { /* it ends where it would leave the map */
-        load->x = (int16_t)fix_clamp(load->x, 0, load->columns);
-        load->y = (int16_t)fix_clamp(load->y, 0, load->rows);
+        load->x = (int)fix_clamp(load->x, 0, load->columns);
+        load->y = (int)fix_clamp(load->y, 0, load->rows);
     }
     contour->count++;
-    if (!add_point(map, load, map->vertex[contour->first].z_q8))
+    if (!add_point(load, load->map->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     if (load->open)
-        return on_frame(map, &map->vertex[load->point_count - 1]) ? next_line(load)
-                                                                  : next_step(load);
+        return on_frame(load, &load->map->vertex[load->point_count - 1]) ? next_line(load)
+                                                                         : next_step(load);
     if (contour->count < 3)
         return next_step(load);
     int32_t away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));
@@ -413,35 +412,34 @@ static int take_place(yb_map_t *map, yb_load_t *load, int rest)
     return END_OF_LINE;
 }
 
-static int take_line(yb_map_t *map, yb_load_t *load, int value)
+static int take_line(yb_load_t *load, int value)
 {
+    int next = load->state + 1;
     switch ((enum field)load->state) {
     case LINE_COUNT:
         load->lines = (uint16_t)value;
         return next_line(load);
     case CLOSED:
         load->open = value != 0;
-        return load->open ? WAY : START_X;
+        return load->open ? WAY : next;
     case START_X:
-        load->start_x = (int16_t)(load->start_x + signed_of(value));
-        return START_Y;
+        load->start_x = load->start_x + signed_of(value);
+        return next;
     case START_Y:
-        load->start_y = (int16_t)(load->start_y + signed_of(value));
+        load->start_y = load->start_y + signed_of(value);
         return take_start(load);
     case WAY:
         return take_way(load, signed_of(value));
     case LENGTH:
-        if (value >= 255)
-            return YB_ERR_CORRUPT;
-        load->length = (int16_t)(value + 1);
+        load->length = value + 1;
         load->at = (uint16_t)(load->turn_context * TURN_MODELS);
-        return SECTOR;
+        return value < 255 ? next : YB_ERR_CORRUPT;
     case SECTOR:
         load->sector = (uint8_t)value;
         load->at = (uint16_t)(load->length - 1);
-        return PLACE;
+        return next;
     case PLACE:
-        return take_place(map, load, value);
+        return take_place(load, value);
     default:
         return value != 0 ? next_line(load) : next_step(load);
     }
@@ -484,8 +482,8 @@ static int take_cell(yb_load_t *load, int value)
     load->cell += (uint32_t)value;
     if (load->cell >= inner_places(load))
         return YB_ERR_CORRUPT;
-    load->x = (int16_t)(1 + load->cell % columns);
-    load->y = (int16_t)(1 + load->cell / columns);
+    load->x = (int)(1 + load->cell % columns);
+    load->y = (int)(1 + load->cell / columns);
     load->cell++;
     load->spots--;
     return SPOT_HEIGHT;
@@ -521,22 +519,22 @@ static int take_corner_height(yb_load_t *load, int32_t units)
     return next_corner(load);
 }
 
-static int take_height(yb_map_t *map, yb_load_t *load, int value)
+static int take_height(yb_load_t *load, int value)
 {
     int state = load->state;
     if ((state - LINE_HEIGHT) % 2 == 0) {
-        load->height = (int16_t)value;
+        load->height = value;
         if (value != 0)
             return state + 1;
     } else if (value != 0) {
-        load->height = (int16_t)-load->height;
+        load->height = -load->height;
     }
     bool of_line = state <= LINE_DOWN;
     int32_t units =
-        height_near(map, load) + (int32_t)load->height * (1 << (of_line ? load->interval : 0));
+        height_near(load) + (int32_t)load->height * (1 << (of_line ? load->interval : 0));
     if (state >= CORNER_HEIGHT && state <= CORNER_DOWN)
         return take_corner_height(load, units);
-    if (!begin_contour(map, load, units))
+    if (!begin_contour(load, units))
         return YB_ERR_CORRUPT;
     load->length_context = 0;
     return of_line ? next_step(load) : next_spot(load);
@@ -544,51 +542,41 @@ static int take_height(yb_map_t *map, yb_load_t *load, int value)
 
 /* --- The end -------------------------------------------------------------------------------- */
 
-/* From units above the base to q8 steps; rest_64th_m is what base_m leaves of the base. Units are
- * below 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits. Counted from the
- * lowest height, so that the division rounds down. False: too low or too high.
- */
-static bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
+static yb_status_t end_relief(yb_load_t *load)
 {
-    uint32_t cell = yb_unit_64th_m(map->cell);
-    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(map->unit) + rest_64th_m;
-    int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
-    if (above < 0)
-        return false;
-    uint64_t z_q8 = (uint64_t)above / cell;
-    *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
-    return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
-}
-
-static yb_status_t end_relief(yb_map_t *map, yb_load_t *load)
-{
+    yb_map_t *map = load->map;
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
-    int64_t base_64th_m = (int64_t)load->base * yb_unit_64th_m(map->unit) + ((int32_t)1 << 21);
-    bool good = base_64th_m >= 0 && base_64th_m < (int32_t)1 << 22;
+    uint64_t base_64th_m =
+        (uint64_t)((int64_t)load->base * yb_unit_64th_m(map->unit) + ((int32_t)1 << 21));
     uint32_t rest = (uint32_t)base_64th_m & 63;
-    map->base_m = (int16_t)((int32_t)(base_64th_m / 64) - 32768);
+    map->base_m = (int16_t)((int32_t)((uint32_t)base_64th_m / 64) - 32768);
     map->seed = load->recent >> 8 & 127;
-    good = good && settle_height(map, rest, &load->frame_height);
-    for (int i = 0; i < 4 && good; i++)
-        good = load->corner_height[i] == UNKNOWN_HEIGHT ||
-               settle_height(map, rest, &load->corner_height[i]);
-    for (int i = 0; i < load->point_count && good; i++)
-        good = settle_height(map, rest, &map->vertex[i].z_q8);
-    return good ? YB_OK : YB_ERR_CORRUPT;
+    if (base_64th_m >> 22 != 0 || !settle_height(map, rest, &load->frame_height))
+        return YB_ERR_CORRUPT;
+    for (int i = 0; i < 4; i++) {
+        int32_t *height = &load->corner_height[i];
+        if (*height != UNKNOWN_HEIGHT && !settle_height(map, rest, height))
+            return YB_ERR_CORRUPT;
+    }
+    for (int i = 0; i < load->point_count; i++) {
+        if (!settle_height(map, rest, &map->vertex[i].z_q8))
+            return YB_ERR_CORRUPT;
+    }
+    return YB_OK;
 }
 
-static int take_field(yb_map_t *map, yb_load_t *load)
+static int take_field(yb_load_t *load)
 {
     int value = load->value;
     load->at = 0;
     if (load->state < LINE_COUNT)
-        return take_header(map, load, value);
+        return take_header(load, value);
     if (load->state < CORNER)
-        return take_line(map, load, value);
+        return take_line(load, value);
     if (load->state < LINE_HEIGHT)
         return take_corner_or_spot(load, value);
     if (load->state < SECTIONS)
-        return take_height(map, load, value);
+        return take_height(load, value);
     load->section = value != 0 ? 0 : SECTION_LAST;
     return END_OF_RELIEF;
 }
@@ -601,17 +589,17 @@ void compact_begin(yb_load_t *load)
     ask(load, CELL_EXPONENT);
 }
 
-yb_status_t compact_take(yb_map_t *map, yb_load_t *load, uint8_t byte)
+yb_status_t compact_take(yb_load_t *load, uint8_t byte)
 {
     load->recent = (uint16_t)(load->recent << 8 | byte);
     load->range <<= 8;
     load->code = load->code << 8 | byte;
     while (load->range >= RANGE_LEAST) {
         if (load->state == END_OF_RELIEF)
-            return end_relief(map, load);
+            return end_relief(load);
         if (!decide_element(load))
             continue;
-        int next = take_field(map, load);
+        int next = take_field(load);
         if (next < 0)
             return (yb_status_t)next;
         ask(load, next);

@@ -91,19 +91,13 @@ int32_t fix_reciprocal(int32_t a)
 
 uint32_t fix_sqrt(uint64_t a)
 {
-    uint64_t root = 0;
-    uint64_t bit = (uint64_t)1 << 62;
-    while (bit > a)
-        bit >>= 2;
-    for (; bit != 0; bit >>= 2) {
-        if (a >= root + bit) {
-            a -= root + bit;
-            root = (root >> 1) + bit;
-        } else {
-            root >>= 1;
-        }
+    uint32_t root = 0;
+    for (uint32_t bit = (uint32_t)1 << (a >> 32 != 0 ? 31 : 15); bit != 0; bit >>= 1) {
+        uint64_t more = root | bit;
+        if (more * more <= a)
+            root |= bit;
     }
-    return (uint32_t)root;
+    return root;
 }
 
 int16_t yb_sin_q14(uint16_t angle_bam)

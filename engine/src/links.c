@@ -11,89 +11,91 @@ enum {
     MOST_TRIES = 4 /* of next nearest points, before one stays unlinked */
 };
 
-int32_t height_of(const place_t *place, int contour)
+int32_t height_of(const yb_load_t *load, const yb_contour_t *contour)
 {
-    return first_of(place, contour)->z_q8;
+    return height_at(load, contour->first);
 }
 
-bool bounds(const place_t *place, int contour)
+bool bounds(const yb_load_t *load, const yb_contour_t *contour)
 {
-    const yb_contour_t *c = &place->load->contour[contour];
-    return is_line(c) && (c->left == place->region || c->right == place->region);
+    return is_line(contour) && (contour->left == load->here || contour->right == load->here);
 }
 
-bool bounds_at(const place_t *place, int contour, int32_t h)
+const yb_contour_t *line_after(const yb_load_t *load, const yb_contour_t *line)
 {
-    return bounds(place, contour) && height_of(place, contour) == h;
+    line = line == NULL ? load->contour : line + 1;
+    for (; line < load->contour + load->contour_count; line++) {
+        if (bounds(load, line))
+            return line;
+    }
+    return NULL;
 }
 
 /* Finds for every other region which line of this one leads to it. */
-static void look_beyond(const place_t *place)
+static void look_beyond(yb_load_t *load)
 {
-    yb_load_t *load = place->load;
     for (int r = 0; r < load->region_count; r++)
         load->way_to[r] = NOWHERE;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (bounds(place, c)) {
-            const yb_contour_t *line = &load->contour[c];
-            load->way_to[line->left == place->region ? line->right : line->left] = (yb_index_t)c;
-        }
+    const yb_contour_t *line = NULL;
+    while ((line = line_after(load, line)) != NULL) {
+        int beyond = line->left == load->here ? line->right : line->left;
+        load->way_to[beyond] = (yb_index_t)number_of(load, line);
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
     bool changed = true;
     for (bool back = false; changed; back = !back) {
         changed = false;
         for (int k = 0; k < load->contour_count; k++) {
-            int c = back ? load->contour_count - 1 - k : k;
-            const yb_contour_t *line = &load->contour[c];
-            if (!is_line(line) || bounds(place, c))
+            line = &load->contour[back ? load->contour_count - 1 - k : k];
+            if (!is_line(line) || bounds(load, line))
                 continue;
-            yb_index_t l = load->way_to[line->left];
-            yb_index_t r = load->way_to[line->right];
-            if (l == r)
+            yb_index_t *left = &load->way_to[line->left];
+            yb_index_t *right = &load->way_to[line->right];
+            if (*left == *right)
                 continue;
-            load->way_to[l == NOWHERE ? line->left : line->right] = l == NOWHERE ? r : l;
+            if (*left == NOWHERE)
+                *left = *right;
+            else
+                *right = *left;
             changed = true;
         }
     }
 }
 
-int line_before(const place_t *place, int s)
+const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot)
 {
-    const yb_contour_t *spot = &place->load->contour[s];
-    if (is_line(spot) || spot->left == place->region)
-        return NOWHERE;
-    return place->load->way_to[spot->left];
+    int line = load->way_to[spot->left];
+    bool here = is_line(spot) || spot->left == load->here;
+    return here || line == NOWHERE ? NULL : &load->contour[line];
 }
 
 /* --- 4.1: fans -------------------------------------------------------------------------------- */
 
 /* The peak whose slope rules point p: the steepest way up from p, or down to a pit (tan θ, 5.1). In
- * a leaf (line < 0) one of those in it; else one beyond another line, if the ground goes on there
- * the way it goes to that line. -1: none.
+ * a leaf (line NULL) one of those in it; else one beyond another line, if the ground goes on there
+ * the way it goes to that line. NULL: none.
  */
-static int ruler_of(const place_t *place, yb_index_t p, int line)
+static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_contour_t *line)
 {
-    const yb_load_t *load = place->load;
-    int32_t z = place->map->vertex[p].z_q8;
-    int ruler = -1;
+    int32_t z = height_at(load, p);
+    const yb_contour_t *ruler = NULL;
+    const yb_contour_t *end = load->contour + all_contours(load);
     int32_t rise = 0;
     int32_t run = 1;
-    for (int s = 0; s < all_contours(load); s++) {
-        const yb_contour_t *spot = &load->contour[s];
-        int32_t top = height_of(place, s);
-        if (is_line(spot) || (line < 0) != (spot->left == place->region))
+    for (const yb_contour_t *spot = load->contour; spot < end; spot++) {
+        if (is_line(spot) || (line == NULL) != (spot->left == load->here))
             continue;
-        if (line >= 0) {
-            int before = line_before(place, s);
-            int32_t h = before == NOWHERE ? z : height_of(place, before);
-            if (before == line || h == z || top == h || (h > z) != (top > h))
+        int32_t up = height_of(load, spot) - z;
+        if (line != NULL) {
+            const yb_contour_t *before = line_before(load, spot);
+            int32_t way = before == NULL ? 0 : height_of(load, before) - z;
+            if (before == line || way == 0 || up == 0 || up == way || (way > 0) != (up > way))
                 continue;
         }
-        int32_t up = fix_abs(top - z);
-        int32_t along = edge_length(place->map, p, spot->first);
+        int32_t along = edge_length(load, p, spot->first);
+        up = fix_abs(up);
         if ((int64_t)up * run > (int64_t)rise * along) {
-            ruler = s;
+            ruler = spot;
             rise = up;
             run = along;
         }
@@ -104,17 +106,13 @@ static int ruler_of(const place_t *place, yb_index_t p, int line)
 /* Is the leaf narrower at point p than the summit is far: is a point of the same height across it
  * nearer? Then p stands by a ridge, which the skeleton will follow.
  */
-static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
+static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 {
-    const yb_map_t *map = place->map;
-    const yb_load_t *load = place->load;
-    int32_t far = edge_length(map, p, summit);
-    yb_triangle_t first = first_at(map, load, p);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
-        int at = corner_of(map, t, p);
-        yb_index_t q = map->triangle[t][next3(at)];
-        if (load->region[t] == place->region && entry_of(load, t, at) < NO_TRIANGLE &&
-            map->vertex[q].z_q8 == map->vertex[p].z_q8 && edge_length(map, p, q) < far)
+    int32_t far = edge_length(load, p, summit);
+    for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
+        int q = end_of(load, e);
+        if (region_of(load, e) == load->here && entry_of(load, e) < NO_TRIANGLE &&
+            height_at(load, q) == height_at(load, p) && edge_length(load, p, q) < far)
             return true;
     }
     return false;
@@ -123,21 +121,17 @@ static bool by_a_ridge(const place_t *place, yb_index_t p, yb_index_t summit)
 /* All of a leaf's points to its summit. First all wishes, then all links: a wish sees the mesh that
  * the others saw.
  */
-static yb_status_t fan(const place_t *place, int line)
+static yb_status_t fan(yb_load_t *load, const yb_contour_t *line)
 {
-    yb_load_t *load = place->load;
-    const yb_contour_t *contour = &load->contour[line];
-    for (int k = 0; k < contour->count; k++) {
-        yb_index_t p = (yb_index_t)(contour->first + k);
-        int s = ruler_of(place, p, -1);
-        yb_index_t summit = s < 0 ? p : load->contour[s].first;
-        load->wish[p] = s < 0 || by_a_ridge(place, p, summit) ? p : summit;
+    int end = line->first + line->count;
+    for (int p = line->first; p < end; p++) {
+        const yb_contour_t *ruler = ruler_of(load, p, NULL);
+        bool linked = ruler != NULL && !by_a_ridge(load, p, ruler->first);
+        load->wish[p] = (yb_index_t)(linked ? ruler->first : p);
     }
-    for (int k = 0; k < contour->count; k++) {
-        yb_index_t p = (yb_index_t)(contour->first + k);
-        yb_index_t summit = load->wish[p];
-        if (summit != p && mesh_sees(place->map, load, p, summit) &&
-            mesh_force_edge(place->map, load, p, summit) != YB_OK)
+    for (int p = line->first; p < end; p++) {
+        int summit = load->wish[p];
+        if (summit != p && mesh_link(load, p, summit) < 0)
             return YB_ERR_LIMIT;
     }
     return YB_OK;
@@ -145,134 +139,110 @@ static yb_status_t fan(const place_t *place, int line)
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ------------------------------------------------- */
 
-/* Distance of point p from the segment ab, in 1/64 steps. Plan differences are below 2^14: squares
- * of lengths are below 2^29.
- */
-static int32_t distance(const yb_map_t *map, yb_index_t p, yb_index_t a, yb_index_t b)
+/* Distance of point p from the segment ab, in 1/64 steps. */
+static int32_t distance(const yb_load_t *load, int p, int a, int b)
 {
-    const yb_vertex_t *v = map->vertex;
-    int32_t abx = fix_minus(v[b].x_q8, v[a].x_q8) >> 2;
-    int32_t aby = fix_minus(v[b].y_q8, v[a].y_q8) >> 2;
-    int32_t apx = fix_minus(v[p].x_q8, v[a].x_q8) >> 2;
-    int32_t apy = fix_minus(v[p].y_q8, v[a].y_q8) >> 2;
-    int32_t along = abx * apx + aby * apy;
-    int32_t square = abx * abx + aby * aby;
+    int32_t along = dot(load, a, b, p);
+    int32_t square = dot(load, a, b, b);
     if (along <= 0)
-        return fix_length(apx, apy);
+        return edge_length(load, a, p) >> 2;
     if (along >= square)
-        return fix_length(apx - abx, apy - aby);
-    return fix_abs(orientation(map, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
+        return edge_length(load, b, p) >> 2;
+    return fix_abs(orientation(load, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
 }
 
-/* The nearest way from p to the region's lines of height h. */
-static int32_t shortest_way(const place_t *place, yb_index_t p, int32_t h)
-{
-    const yb_load_t *load = place->load;
-    int32_t shortest = INT32_MAX;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(place, c, h))
-            continue;
-        for (int k = 0; k < load->contour[c].count; k++)
-            shortest = fix_min(
-                shortest, edge_length(place->map, p, (yb_index_t)(load->contour[c].first + k)));
-    }
-    return shortest;
-}
-
-/* A point and how far it is from a slope line. */
+/* A search among the points of the region's lines of height h. */
 typedef struct {
-    int32_t off;
-    int point; /* -1: none */
-} near_t;
+    int32_t h;
+    int from, peak; /* the slope line: from this point to its peak; none, if it is the point */
+    int32_t far;    /* points farther from the first one do not count */
+    int32_t off;    /* what was found last: how far it is from the slope line, or from the point, */
+    int point;      /* and which it is; -1: none */
+} search_t;
 
-/* The point of the region's lines of height h that is nearest to the segment from p to its peak and
- * comes after `last`, of those that are not farther from p than `far`.
- */
-static near_t next_near(const place_t *place, yb_index_t p, yb_index_t peak, int32_t h, int32_t far,
-                        near_t last)
+/* The nearest point that comes after the last one found. */
+static void find_next(const yb_load_t *load, search_t *search)
 {
-    const yb_load_t *load = place->load;
-    near_t nearest = {INT32_MAX, -1};
-    for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds_at(place, c, h))
+    int32_t off = INT32_MAX;
+    int point = -1;
+    const yb_contour_t *line = NULL;
+    while ((line = line_after(load, line)) != NULL) {
+        if (height_of(load, line) != search->h)
             continue;
-        for (int k = 0; k < load->contour[c].count; k++) {
-            yb_index_t q = (yb_index_t)(load->contour[c].first + k);
-            if (edge_length(place->map, p, q) > far)
+        int end = line->first + line->count;
+        for (int q = line->first; q < end; q++) {
+            int32_t d = edge_length(load, search->from, q);
+            if (d > search->far)
                 continue;
-            int32_t off = distance(place->map, q, p, peak);
-            if ((off > last.off || (off == last.off && q > last.point)) && off < nearest.off)
-                nearest = (near_t){off, q};
+            if (search->peak != search->from)
+                d = distance(load, q, search->from, search->peak);
+            if ((d > search->off || (d == search->off && q > search->point)) && d < off) {
+                off = d;
+                point = q;
+            }
         }
     }
-    return nearest;
+    search->off = off;
+    search->point = point;
 }
 
 /* Links p to the next line where the segment to its peak comes nearest to a point of it. Only to
  * points that are at most a quarter farther than the nearest: where there is none, the slope leads
- * elsewhere, whatever the peak.
+ * elsewhere, whatever the peak. YB_MORE: it sees none of the first few.
  */
-static yb_status_t link_down(const place_t *place, yb_index_t p, int line)
+static yb_status_t link_down(yb_load_t *load, int p, const yb_contour_t *line)
 {
-    yb_load_t *load = place->load;
-    int s = ruler_of(place, p, line);
-    if (s < 0)
+    const yb_contour_t *ruler = ruler_of(load, p, line);
+    if (ruler == NULL)
         return YB_OK;
-    yb_index_t peak = load->contour[s].first;
-    int32_t h = height_of(place, line_before(place, s));
-    int32_t far = shortest_way(place, p, h);
-    far += far >> 2;
-    near_t near = {-1, -1};
-    for (int tries = 0; tries < MOST_TRIES; tries++) {
-        near = next_near(place, p, peak, h, far, near);
-        if (near.point < 0)
-            return YB_OK;
-        if (mesh_sees(place->map, load, p, (yb_index_t)near.point))
-            return mesh_force_edge(place->map, load, p, (yb_index_t)near.point);
+    search_t search = {.h = height_of(load, line_before(load, ruler)),
+                       .from = p,
+                       .peak = p,
+                       .far = INT32_MAX,
+                       .off = -1};
+    find_next(load, &search);
+    search.far = search.off + (search.off >> 2);
+    search.peak = ruler->first;
+    search.off = -1;
+    yb_status_t status = YB_MORE;
+    for (int tries = 0; tries < MOST_TRIES && status == YB_MORE; tries++) {
+        find_next(load, &search);
+        status = search.point < 0 ? YB_OK : mesh_link(load, p, search.point);
     }
-    return YB_OK;
+    return status;
 }
 
 /* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
  * may wrap.
  */
-static bool turns_left(const yb_map_t *map, const yb_contour_t *line)
+static bool turns_left(const yb_load_t *load, const yb_contour_t *line)
 {
     uint32_t area = 0;
     for (int k = 1; k + 1 < line->count; k++)
-        area += (uint32_t)orientation(map, line->first, (yb_index_t)(line->first + k),
-                                      (yb_index_t)(line->first + k + 1));
+        area += (uint32_t)orientation(load, line->first, line->first + k, line->first + k + 1);
     return (int32_t)area > 0;
 }
 
 /* Does the line lie round the region, or does it go from frame to frame? */
-static bool is_outer(const place_t *place, int line)
+static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
 {
-    const yb_contour_t *c = &place->load->contour[line];
-    return c->open || (c->left == place->region) == turns_left(place->map, c);
+    return line->open || (line->left == load->here) == turns_left(load, line);
 }
 
-static yb_status_t apply_rules(const place_t *place)
+static yb_status_t apply_rules(yb_load_t *load)
 {
-    yb_load_t *load = place->load;
-    int lines = 0;
-    int line = 0;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (bounds(place, c)) {
-            lines++;
-            line = c;
-        }
-    }
-    if (lines == 1)
-        return fan(place, line);
-    look_beyond(place);
-    if (saddles_add(place) != YB_OK)
+    const yb_contour_t *line = line_after(load, NULL);
+    if (line_after(load, line) == NULL)
+        return fan(load, line);
+    look_beyond(load);
+    if (saddles_add(load) != YB_OK)
         return YB_ERR_LIMIT;
-    for (int c = 0; c < load->contour_count; c++) {
-        if (!bounds(place, c) || !is_outer(place, c))
+    for (; line != NULL; line = line_after(load, line)) {
+        if (!is_outer(load, line))
             continue;
-        for (int k = 0; k < load->contour[c].count; k++) {
-            if (link_down(place, (yb_index_t)(load->contour[c].first + k), c) != YB_OK)
+        int end = line->first + line->count;
+        for (int p = line->first; p < end; p++) {
+            if (link_down(load, p, line) < 0)
                 return YB_ERR_LIMIT;
         }
     }
@@ -280,28 +250,25 @@ static yb_status_t apply_rules(const place_t *place)
 }
 
 /* Does an earlier line, or the left side of this one, bound the region too? */
-static bool seen_before(const yb_load_t *load, int side, yb_index_t region)
+static bool seen_before(const yb_load_t *load, int side)
 {
     for (int k = 0; k < side; k++) {
-        const yb_contour_t *c = &load->contour[k >> 1];
-        if (is_line(c) && ((k & 1) == 0 ? c->left : c->right) == region)
+        if (is_line(&load->contour[k >> 1]) && region_beside(load, k) == load->here)
             return true;
     }
     return false;
 }
 
-yb_status_t links_add(yb_map_t *map, yb_load_t *load)
+yb_status_t links_add(yb_load_t *load)
 {
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
-        const yb_contour_t *c = &load->contour[side >> 1];
-        place_t place = {map, load, (side & 1) == 0 ? c->left : c->right};
-        if (!is_line(c) || seen_before(load, side, place.region))
-            continue;
-        if (apply_rules(&place) != YB_OK)
+        load->here = region_beside(load, side);
+        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) &&
+            apply_rules(load) != YB_OK)
             return YB_ERR_LIMIT;
     }
-    mesh_make_delaunay(map, load);
+    mesh_make_delaunay(load);
     return YB_OK;
 }
 
@@ -340,7 +307,7 @@ yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
 {
     yb_index_t a = map->triangle[triangle][edge];
     yb_index_t b = map->triangle[triangle][next3(edge)];
-    if (is_marked(load, triangle, edge))
+    if (is_marked(load, 4 * (half_t)triangle + edge))
         return rule_of_marked(load, a < b ? a : b, a < b ? b : a);
     /* The way that a branch of a skeleton takes, its beginning included. */
     for (int k = 0; k < 2; k++) {

@@ -1,20 +1,16 @@
-/* What the rules of a region share: the region, its lines, and the peaks behind them. */
+/* What the rules of a region share: its lines, and the peaks behind them. While they are applied
+ * the region is load->here, and load->way_to[r] is the line of it that leads to region r.
+ */
 #ifndef YB_LINKS_H
 #define YB_LINKS_H
+
+#include <stddef.h>
 
 #include "mesh.h"
 
 enum {
     NOWHERE = YB_MAX_CONTOURS /* no line leads there */
 };
-
-/* A region while its rules are applied; load->way_to[r] is the line of it that leads to region r.
- */
-typedef struct {
-    yb_map_t *map;
-    yb_load_t *load;
-    yb_index_t region;
-} place_t;
 
 /* Spot heights: those of the code and those that were added. */
 static inline int all_contours(const yb_load_t *load)
@@ -27,24 +23,24 @@ static inline bool is_line(const yb_contour_t *contour)
     return contour->count > 1;
 }
 
-static inline const yb_vertex_t *first_of(const place_t *place, int contour)
+static inline int number_of(const yb_load_t *load, const yb_contour_t *contour)
 {
-    return &place->map->vertex[place->load->contour[contour].first];
+    return (int)(contour - load->contour);
 }
 
 /* Its height. */
-int32_t height_of(const place_t *place, int contour);
-
-/* Does this contour, as a line of height h, bound the region? */
-bool bounds_at(const place_t *place, int contour, int32_t h);
+int32_t height_of(const yb_load_t *load, const yb_contour_t *contour);
 
 /* Does this contour, as a line, bound the region? */
-bool bounds(const place_t *place, int contour);
+bool bounds(const yb_load_t *load, const yb_contour_t *contour);
 
-/* The line of the region behind which spot height s lies, or NOWHERE. */
-int line_before(const place_t *place, int s);
+/* The next line round the region, the first one after NULL; NULL: there is none. */
+const yb_contour_t *line_after(const yb_load_t *load, const yb_contour_t *line);
+
+/* The line of the region behind which a spot height lies, or NULL. */
+const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot);
 
 /* 5.1 and 7: link points between neighbouring peaks. */
-YB_MUST_CHECK yb_status_t saddles_add(const place_t *place);
+YB_MUST_CHECK yb_status_t saddles_add(yb_load_t *load);
 
 #endif

@@ -1,36 +1,124 @@
 /* The mesh while it is being built: what every stage of loading asks of it. */
 #include "mesh.h"
 
-int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
+half_t next_of(half_t e)
 {
-    return map->triangle[t][0] == v ? 0 : map->triangle[t][1] == v ? 1 : 2;
+    return (e & 2) != 0 ? e - 2 : e + 1;
 }
 
-yb_index_t corner_after(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
+half_t last_of(half_t e)
 {
-    return map->triangle[t][next3(corner_of(map, t, v))];
+    return (e & 3) != 0 ? e - 1 : e + 2;
 }
 
-yb_index_t corner_before(const yb_map_t *map, yb_triangle_t t, yb_index_t v)
+half_t half_after(const yb_load_t *load, half_t e)
 {
-    return map->triangle[t][prev3(corner_of(map, t, v))];
+    e += 1 + (e >> 1 & 1); /* there is no edge 3 */
+    return triangle_of(e) < (int)load->map->triangle_count ? e : NO_HALF;
 }
 
-yb_entry_t entry_of(const yb_load_t *load, yb_triangle_t t, int edge)
+int region_of(const yb_load_t *load, half_t e)
 {
-    return (yb_entry_t)(load->across[t] >> (edge * ENTRY_BITS)) & ENTRY_ALL;
+    return load->region[triangle_of(e)];
 }
 
-void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry)
+int origin_of(const yb_load_t *load, half_t e)
 {
-    int shift = edge * ENTRY_BITS;
-    yb_across_t others = load->across[t] & ~((yb_across_t)ENTRY_ALL << shift);
-    load->across[t] = others | (yb_across_t)entry << shift;
+    const yb_index_t *corner = load->map->triangle[0]; /* three a triangle, in a row */
+    return corner[e - triangle_of(e)];
 }
 
-bool on_frame(const yb_map_t *map, const yb_vertex_t *v)
+int end_of(const yb_load_t *load, half_t e)
 {
+    return origin_of(load, (e & 2) != 0 ? e - 2 : e + 1);
+}
+
+int apex_of(const yb_load_t *load, half_t e)
+{
+    return origin_of(load, last_of(e));
+}
+
+int entry_of(const yb_load_t *load, half_t e)
+{
+    return (int)(load->across[e >> 2] >> (e & 3) * ENTRY_BITS) & ENTRY_ALL;
+}
+
+void set_entry(yb_load_t *load, half_t e, int entry)
+{
+    yb_across_t *word = &load->across[e >> 2];
+    int shift = (e & 3) * ENTRY_BITS;
+    *word = (*word & ~((yb_across_t)ENTRY_ALL << shift)) | (yb_across_t)entry << shift;
+}
+
+half_t half_at(const yb_load_t *load, int t, int v)
+{
+    const yb_index_t *corner = load->map->triangle[t];
+    return 4 * t + (corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
+}
+
+half_t twin_of(const yb_load_t *load, half_t e)
+{
+    int t = entry_of(load, e) & NO_TRIANGLE;
+    if (t == NO_TRIANGLE)
+        return NO_HALF;
+    return half_at(load, t, end_of(load, e));
+}
+
+half_t spoke_left(const yb_load_t *load, half_t e)
+{
+    return twin_of(load, last_of(e));
+}
+
+half_t first_spoke(const yb_load_t *load, int v)
+{
+    half_t e = half_at(load, (int)load->star[v], v);
+    if (!on_frame(load, vertex_of(load, v)))
+        return spoke_left(load, e); /* the one that a whole turn to the right would end at */
+    for (;;) {
+        half_t right = twin_of(load, e);
+        if (right == NO_HALF)
+            return e;
+        e = next_of(right);
+    }
+}
+
+half_t spoke_after(const yb_load_t *load, half_t e)
+{
+    int v = origin_of(load, e);
+    bool last = (int)load->star[v] == triangle_of(e) && !on_frame(load, vertex_of(load, v));
+    return last ? NO_HALF : spoke_left(load, e);
+}
+
+half_t spoke_to(const yb_load_t *load, int a, int b)
+{
+    half_t e = first_spoke(load, a);
+    while (end_of(load, e) != b)
+        e = spoke_left(load, e);
+    return e;
+}
+
+bool on_frame(const yb_load_t *load, const yb_vertex_t *v)
+{
+    const yb_map_t *map = load->map;
     return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
+}
+
+void find_way(const yb_load_t *load, int a, int b, int32_t way[3])
+{
+    const yb_vertex_t *v = vertex_of(load, a);
+    const yb_vertex_t *w = vertex_of(load, b);
+    way[0] = fix_minus(w->x_q8, v->x_q8) >> 2;
+    way[1] = fix_minus(w->y_q8, v->y_q8) >> 2;
+    way[2] = w->z_q8 - v->z_q8;
+}
+
+int32_t dot(const yb_load_t *load, int o, int a, int b)
+{
+    int32_t to_a[3];
+    int32_t to_b[3];
+    find_way(load, o, a, to_a);
+    find_way(load, o, b, to_b);
+    return to_a[0] * to_b[0] + to_a[1] * to_b[1];
 }
 
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
@@ -42,85 +130,52 @@ int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c
     return abx * acy - aby * acx;
 }
 
-int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c)
+int32_t orientation(const yb_load_t *load, int a, int b, int c)
 {
-    return area_of(&map->vertex[a], &map->vertex[b], &map->vertex[c]);
+    return area_of(vertex_of(load, a), vertex_of(load, b), vertex_of(load, c));
 }
 
-int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b)
+int32_t side_of(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
-    const yb_vertex_t *v = map->vertex;
-    return fix_length(fix_minus(v[b].x_q8, v[a].x_q8), fix_minus(v[b].y_q8, v[a].y_q8));
+    return area_of(vertex_of(load, origin_of(load, e)), vertex_of(load, end_of(load, e)), p);
 }
 
-yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v)
+int32_t edge_length(const yb_load_t *load, int a, int b)
 {
-    return neighbour_of(load, t, prev3(corner_of(map, t, v)));
+    const yb_vertex_t *v = vertex_of(load, a);
+    const yb_vertex_t *w = vertex_of(load, b);
+    return fix_length(fix_minus(v->x_q8, w->x_q8), fix_minus(v->y_q8, w->y_q8));
 }
 
-yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v)
+int32_t half_length(const yb_load_t *load, half_t e)
 {
-    return neighbour_of(load, t, corner_of(map, t, v));
+    return edge_length(load, origin_of(load, e), end_of(load, e));
 }
 
-yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
+uint32_t edge_key(const yb_load_t *load, half_t e)
 {
-    yb_triangle_t t = load->star[v];
-    if (!on_frame(map, &map->vertex[v]))
-        return turn_left(map, load, t, v); /* the one that a whole turn to the right would end at */
-    for (;;) {
-        yb_triangle_t before = turn_right(map, load, t, v);
-        if (before == NO_TRIANGLE)
-            return t;
-        t = before;
-    }
+    uint32_t a = (uint32_t)origin_of(load, e);
+    uint32_t b = (uint32_t)end_of(load, e);
+    return a < b ? a << 16 | b : b << 16 | a;
 }
 
-yb_triangle_t turn_on(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v,
-                      yb_triangle_t first)
+void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle)
 {
-    t = turn_left(map, load, t, v);
-    return t == first ? NO_TRIANGLE : t;
+    const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
+    const yb_vertex_t *b = vertex_of(load, end_of(load, e));
+    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
+    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+    middle->z_q8 = a->z_q8;
 }
 
-yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
-                     int *corner)
+yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
 {
-    yb_triangle_t u = neighbour_of(load, t, i);
-    *corner = prev3(corner_of(map, u, map->triangle[t][next3(i)]));
-    return u;
-}
-
-yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
-{
-    int apex = 0;
-    yb_triangle_t u = across(map, load, t, i, &apex);
-    return map->triangle[u][apex];
-}
-
-bool is_flat(const yb_map_t *map, yb_triangle_t t)
-{
-    const yb_index_t *v = map->triangle[t];
-    return map->vertex[v[0]].z_q8 == map->vertex[v[1]].z_q8 &&
-           map->vertex[v[0]].z_q8 == map->vertex[v[2]].z_q8;
-}
-
-yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8, uint16_t y_q8,
-                            int32_t z_q8)
-{
+    yb_map_t *map = load->map;
     if (map->vertex_count >= load->vertices_promised)
         return YB_ERR_LIMIT;
-    yb_vertex_t *v = &map->vertex[map->vertex_count];
-    v->x_q8 = x_q8;
-    v->y_q8 = y_q8;
-    v->z_q8 = z_q8;
-    map->vertex_count++;
+    yb_vertex_t *v = &map->vertex[map->vertex_count++];
+    v->x_q8 = at->x_q8;
+    v->y_q8 = at->y_q8;
+    v->z_q8 = at->z_q8;
     return YB_OK;
-}
-
-uint32_t mesh_edge_key(const yb_map_t *map, yb_triangle_t t, int i)
-{
-    uint32_t a = map->triangle[t][i];
-    uint32_t b = map->triangle[t][next3(i)];
-    return a < b ? a << 16 | b : b << 16 | a;
 }

@@ -7,6 +7,16 @@
  * and the entry across it is the triangle there, or NO_TRIANGLE. An edge that must stay (a
  * contour's, or a link) is *marked*, in the entries from both sides; it is never flipped nor
  * crossed.
+ *
+ * A *half* is an edge as one of its triangles sees it: edge i of triangle t is the half 4t + i. It
+ * begins at corner i, ends at corner i + 1 and has the third corner, its apex, on its left. The
+ * halves that begin at a vertex are its spokes, each the rightmost side of its triangle there.
+ *
+ *            apex
+ *            /  ^
+ *    last_of/    \next_of
+ *          v      \
+ *      origin ───► end
  */
 #ifndef YB_MESH_H
 #define YB_MESH_H
@@ -24,129 +34,182 @@ enum {
     NO_TRIANGLE = ENTRY_MARK - 1, /* across the frame */
     ENTRY_ALL = ENTRY_MARK | NO_TRIANGLE
 };
-typedef yb_triangle_t yb_entry_t;
+
+/* Numbers of halves; NO_HALF, below 0: there is none. */
+typedef int half_t;
+enum {
+    NO_HALF = -1
+};
+_Static_assert(sizeof(half_t) >= 4 || YB_MAX_TRIANGLES < 8192, "an int numbers all halves");
+
+static inline int triangle_of(half_t e)
+{
+    return e >> 2;
+}
+
+/* The place of a point in the mesh: the half that it lies on, or, inside triangle t, 4t + 3. */
+static inline half_t place_inside(half_t e)
+{
+    return e | 3;
+}
+
+static inline bool is_inside(half_t place)
+{
+    return (place & 3) == 3;
+}
 
 static inline int next3(int i)
 {
     return i == 2 ? 0 : i + 1;
 }
 
-static inline int prev3(int i)
-{
-    return i == 0 ? 2 : i - 1;
-}
+/* The next half of the triangle, counter-clockwise, and the last one. */
+half_t next_of(half_t e);
+half_t last_of(half_t e);
 
-/* What lies across edge `edge` of t: above NO_TRIANGLE if it is marked. */
-yb_entry_t entry_of(const yb_load_t *load, yb_triangle_t t, int edge);
+/* The next half of all, NO_HALF after the last one:
+ *
+ *     for (half_t e = 0; e != NO_HALF; e = half_after(load, e))
+ */
+half_t half_after(const yb_load_t *load, half_t e);
 
-void set_entry(yb_load_t *load, yb_triangle_t t, int edge, yb_entry_t entry);
+/* The region that the half's triangle lies in, after regions_find. */
+int region_of(const yb_load_t *load, half_t e);
 
-static inline yb_triangle_t neighbour_of(const yb_load_t *load, yb_triangle_t t, int edge)
-{
-    return entry_of(load, t, edge) & NO_TRIANGLE;
-}
+int origin_of(const yb_load_t *load, half_t e);
+int end_of(const yb_load_t *load, half_t e);
+int apex_of(const yb_load_t *load, half_t e);
+
+/* What lies across a half: above NO_TRIANGLE if it is marked. */
+int entry_of(const yb_load_t *load, half_t e);
+
+void set_entry(yb_load_t *load, half_t e, int entry);
 
 /* Must an edge stay? */
-static inline bool is_marked(const yb_load_t *load, yb_triangle_t t, int edge)
+static inline bool is_marked(const yb_load_t *load, half_t e)
 {
-    return entry_of(load, t, edge) > NO_TRIANGLE;
+    return entry_of(load, e) > NO_TRIANGLE;
 }
 
-/* Which corner of triangle t vertex v is; v is one of them. */
-int corner_of(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+/* The half of triangle t that begins at vertex v, one of its corners. */
+half_t half_at(const yb_load_t *load, int t, int v);
 
-/* The corner of triangle t that comes after (before) its corner v, counter-clockwise. */
-yb_index_t corner_after(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+/* The same edge seen from its other side, or NO_HALF on the frame. */
+half_t twin_of(const yb_load_t *load, half_t e);
 
-yb_index_t corner_before(const yb_map_t *map, yb_triangle_t t, yb_index_t v);
+/* All spokes of v, counter-clockwise:
+ *
+ *     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e))
+ *
+ * from the rightmost one if v is on the frame, from any if not.
+ */
+half_t first_spoke(const yb_load_t *load, int v);
+half_t spoke_after(const yb_load_t *load, half_t e);
 
-bool on_frame(const yb_map_t *map, const yb_vertex_t *v);
+/* The spoke to the left of e, without end; NO_HALF on the frame. */
+half_t spoke_left(const yb_load_t *load, half_t e);
+
+/* The spoke from vertex a that ends at b; there is one. */
+half_t spoke_to(const yb_load_t *load, int a, int b);
+
+static inline const yb_vertex_t *vertex_of(const yb_load_t *load, int v)
+{
+    return &load->map->vertex[v];
+}
+
+static inline int32_t height_at(const yb_load_t *load, int v)
+{
+    return vertex_of(load, v)->z_q8;
+}
+
+bool on_frame(const yb_load_t *load, const yb_vertex_t *v);
+
+/* From vertex a to vertex b: x and y in 1/64 step, z in q8. Coordinates are multiples of 4 below
+ * 2^16: within ±2^14.
+ */
+void find_way(const yb_load_t *load, int a, int b, int32_t way[3]);
+
+/* Product of the ways from o to a and from o to b in the plan, in square 1/64 steps: positive where
+ * the angle between them is acute, the square of the distance if a is b. Within ±2^29.
+ */
+int32_t dot(const yb_load_t *load, int o, int a, int b);
 
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
  */
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c);
 
-int32_t orientation(const yb_map_t *map, yb_index_t a, yb_index_t b, yb_index_t c);
+int32_t orientation(const yb_load_t *load, int a, int b, int c);
 
-/* Length of an edge, q8: see fix_length. */
-int32_t edge_length(const yb_map_t *map, yb_index_t a, yb_index_t b);
+/* The same of a half and a point: positive if the point lies to its left. */
+int32_t side_of(const yb_load_t *load, half_t e, const yb_vertex_t *p);
+
+/* Length from vertex to vertex, q8: see fix_length. */
+int32_t edge_length(const yb_load_t *load, int a, int b);
+
+int32_t half_length(const yb_load_t *load, half_t e);
+
+/* The middle of an edge, at the height of its beginning; without slopes. */
+void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle);
+
+/* The edge as a number, the lower end's times 65536 and the higher end's: an order that does not
+ * depend on how the mesh is written down.
+ */
+uint32_t edge_key(const yb_load_t *load, half_t e);
 
 /* Checks the contours against the frame, tells open from closed ones, adds the corners that no
  * line ends at, and gives every corner its height (SPEC 1.5, 2.1).
  */
-YB_MUST_CHECK yb_status_t border_close(yb_map_t *map, yb_load_t *load);
+YB_MUST_CHECK yb_status_t border_close(yb_load_t *load);
 
 /* The constrained Delaunay triangulation of all vertices and contour edges (SPEC 2.2); corrupt if
  * contours cross or touch.
  */
-YB_MUST_CHECK yb_status_t mesh_triangulate(yb_map_t *map, yb_load_t *load);
+YB_MUST_CHECK yb_status_t mesh_triangulate(yb_load_t *load);
 
-/* Adds a vertex that lies in no triangle yet; corrupt if the code did not promise so many. */
-YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_map_t *map, yb_load_t *load, uint16_t x_q8,
-                                          uint16_t y_q8, int32_t z_q8);
-
-/* Splits t at vertex p, which lies on its edge `edge` (then the triangle across is split too) or,
- * edge = -1, inside. Nothing is flipped.
+/* Adds a vertex, of which x, y and z are given, that lies in no triangle yet; YB_ERR_LIMIT if the
+ * code did not promise so many.
  */
-void mesh_split(yb_map_t *map, yb_load_t *load, yb_triangle_t t, int edge, yb_index_t p);
+YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at);
+
+/* The same, and splits the triangle that it lies in at it, or, on an edge, both. Nothing is
+ * flipped.
+ */
+YB_MUST_CHECK yb_status_t mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at);
 
 /* Makes the edges round the new vertex p Delaunay. */
-void mesh_legalise(yb_map_t *map, yb_load_t *load, yb_index_t p);
+void mesh_legalise(yb_load_t *load, int p);
 
 /* Makes ab a marked edge; corrupt if another or a vertex is in its way. */
-YB_MUST_CHECK yb_status_t mesh_force_edge(yb_map_t *map, yb_load_t *load, yb_index_t a,
-                                          yb_index_t b);
+YB_MUST_CHECK yb_status_t mesh_force_edge(yb_load_t *load, int a, int b);
 
 /* Flips what is not marked until it is Delaunay. */
-void mesh_make_delaunay(yb_map_t *map, yb_load_t *load);
+void mesh_make_delaunay(yb_load_t *load);
 
 /* Can ab become an edge? Not if a marked edge or a vertex is in its way. */
-bool mesh_sees(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b);
+bool mesh_sees(const yb_load_t *load, int a, int b);
+
+/* Makes it one; YB_MORE if it cannot. */
+YB_MUST_CHECK yb_status_t mesh_link(yb_load_t *load, int a, int b);
 
 /* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
-YB_MUST_CHECK yb_status_t regions_find(const yb_map_t *map, yb_load_t *load);
+YB_MUST_CHECK yb_status_t regions_find(yb_load_t *load);
+
+/* The region on side k of the contours: the left one of contour k / 2, or, k odd, its right one. */
+int region_beside(const yb_load_t *load, int k);
 
 /* Section 3: a summit, or the bottom of a pit, for every region of one height (SPEC 2.4). */
-YB_MUST_CHECK yb_status_t summits_add(yb_map_t *map, yb_load_t *load);
+YB_MUST_CHECK yb_status_t summits_add(yb_load_t *load);
 
 /* Rules 4, 5 and 7: link points between peaks (saddles.c), links from summits and down the slopes
  * (SPEC 2.5).
  */
-YB_MUST_CHECK yb_status_t links_add(yb_map_t *map, yb_load_t *load);
+YB_MUST_CHECK yb_status_t links_add(yb_load_t *load);
 
 /* Rules 6: points along the middle of whatever still is flat (SPEC 2.6). */
-YB_MUST_CHECK yb_status_t skeleton_add(yb_map_t *map, yb_load_t *load);
+YB_MUST_CHECK yb_status_t skeleton_add(yb_load_t *load);
 
 /* Slopes, amplitude, and the tables of noise and reach (SPEC 3). */
-void relief_prepare(yb_map_t *map, const yb_load_t *load);
-
-/* The triangle after t (before t) in counter-clockwise order round vertex v, or NO_TRIANGLE. */
-yb_triangle_t turn_left(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v);
-
-yb_triangle_t turn_right(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v);
-
-/* The triangle across edge i of t, which is not on the frame, and which corner of it lies opposite.
- */
-yb_triangle_t across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i,
-                     int *corner);
-
-/* The vertex opposite edge i of t on its other side; the edge is not on the frame. */
-yb_index_t apex_across(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i);
-
-/* Edge i of t as a number, the lower end's times 65536 and the higher end's: an order that does not
- * depend on how the mesh is written down.
- */
-uint32_t mesh_edge_key(const yb_map_t *map, yb_triangle_t t, int i);
-
-/* Do all corners lie at one height? */
-bool is_flat(const yb_map_t *map, yb_triangle_t t);
-
-/* All triangles at v, counter-clockwise from the first: the one after t, or NO_TRIANGLE. */
-yb_triangle_t turn_on(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, yb_index_t v,
-                      yb_triangle_t first);
-
-/* The rightmost triangle at v: the first one counter-clockwise if v is on the frame, any if not. */
-yb_triangle_t first_at(const yb_map_t *map, const yb_load_t *load, yb_index_t v);
+void relief_prepare(const yb_load_t *load);
 
 #endif

@@ -133,8 +133,12 @@ static inline void ring_step(yb_ring_t ring, int *dx, int *dy)
     int along = ring.place - 2 * n * side;     /* -n … n along it */
     if (side == 0 && along > n)
         along -= 8 * n;
-    *dx = side == 0 ? n : side == 1 ? -along : side == 2 ? -n : along;
-    *dy = side == 0 ? along : side == 1 ? n : side == 2 ? -along : -n;
+    if ((side & 2) != 0) {
+        n = -n;
+        along = -along;
+    }
+    *dx = (side & 1) != 0 ? -along : n;
+    *dy = (side & 1) != 0 ? n : along;
 }
 
 static inline yb_ring_t ring_of(int dx, int dy)
@@ -144,7 +148,7 @@ static inline yb_ring_t ring_of(int dx, int dy)
                 : dy == n  ? 2 * n - dx
                 : dx == -n ? 4 * n - dy
                            : 6 * n + dx;
-    return (yb_ring_t){(int16_t)n, (int16_t)place};
+    return (yb_ring_t){n, place};
 }
 
 /* Where a ring of radius n is met by going on straight, less half a sector: from here on the

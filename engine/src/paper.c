@@ -7,7 +7,16 @@
 #include "mesh.h"
 
 enum state {
-    HEADER,
+    FLAGS,
+    CONTOURS,
+    VERTICES,
+    EAST,
+    NORTH,
+    CELL,
+    UNIT,
+    BASE,
+    SEED,
+    GAIN, /* the last of the header */
     FRAME_HEIGHTS,
     COUNTS,
     DIMENSION,
@@ -18,56 +27,68 @@ enum state {
 };
 
 enum {
-    HEADER_BYTES = 14,
     FLAG_STRAIGHT = 4,
     FLAG_RESERVED = 8
 };
 
-/* Height in q8 of a coded one: units times metres per unit over metres per step, rounded.
- * 2^16 * 2^12 * 2^15 * 2^8 = 2^51 fits easily; the divisor is at least 1.
- */
-static int32_t height_q8(const yb_map_t *map, uint32_t coded)
+static yb_status_t check_header(const yb_load_t *load)
 {
-    uint64_t cell = yb_unit_64th_m(map->cell);
-    uint64_t height = ((uint64_t)coded * yb_unit_64th_m(map->unit) * 256 + cell / 2) / cell;
-    return height > YB_MAX_HEIGHT_Q8 ? -1 : (int32_t)height;
-}
-
-static yb_status_t take_header(yb_map_t *map, yb_load_t *load, uint8_t byte)
-{
-    const uint8_t *h = load->header;
-    load->header[load->at++] = byte;
-    if (load->at < HEADER_BYTES)
-        return YB_MORE;
-    load->flags = h[1];
-    load->contour_count = h[2];
-    load->vertices_promised = h[3];
-    map->east_q8 = (uint16_t)((unsigned)h[4] << 8);
-    map->north_q8 = (uint16_t)((unsigned)h[5] << 8);
-    map->cell = (uint16_t)((unsigned)h[6] << 8 | h[7]);
-    map->unit = (uint16_t)((unsigned)h[8] << 8 | h[9]);
-    map->base_m = (int16_t)((unsigned)h[10] << 8 | h[11]);
-    map->seed = h[12];
-    load->gain = h[13];
-    map->smooth = (load->flags & FLAG_STRAIGHT) == 0;
-    if ((load->flags & FLAG_RESERVED) != 0 || h[3] < 4 || h[4] == 0 || h[5] == 0 ||
-        (map->cell & 0xfff) == 0 || (map->unit & 0xfff) == 0)
+    const yb_map_t *map = load->map;
+    if ((load->flags & FLAG_RESERVED) != 0 || load->vertices_promised < 4 || map->east_q8 == 0 ||
+        map->north_q8 == 0 || (map->cell & 0xfff) == 0 || (map->unit & 0xfff) == 0)
         return YB_ERR_CORRUPT;
 #if YB_MAX_VERTICES < 255
     if (load->vertices_promised > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
 #endif
-    load->at = 0;
-    load->state = FRAME_HEIGHTS;
+    return YB_MORE;
+}
+
+static yb_status_t take_header(yb_load_t *load, uint32_t field)
+{
+    yb_map_t *map = load->map;
+    switch ((enum state)load->state++) {
+    case FLAGS:
+        load->flags = field;
+        map->smooth = (field & FLAG_STRAIGHT) == 0;
+        break;
+    case CONTOURS:
+        load->contour_count = (uint16_t)field;
+        break;
+    case VERTICES:
+        load->vertices_promised = (uint16_t)field;
+        break;
+    case EAST:
+        map->east_q8 = (uint16_t)(field << 8);
+        break;
+    case NORTH:
+        map->north_q8 = (uint16_t)(field << 8);
+        break;
+    case CELL:
+        map->cell = (uint16_t)field;
+        break;
+    case UNIT:
+        map->unit = (uint16_t)field;
+        break;
+    case BASE:
+        map->base_m = (int16_t)field;
+        break;
+    case SEED:
+        map->seed = (uint8_t)field;
+        break;
+    default:
+        load->gain = (uint8_t)field;
+        return check_header(load);
+    }
     return YB_MORE;
 }
 
 /* One height per coded corner, or, if none is coded, one for the whole frame. */
-static yb_status_t take_frame_height(yb_map_t *map, yb_load_t *load, uint32_t coded)
+static yb_status_t take_frame_height(yb_load_t *load, uint32_t coded)
 {
     uint32_t corners = load->flags >> 4; /* SW SE NE NW from bit 3 down */
-    int32_t height = height_q8(map, coded);
-    if (height < 0)
+    int32_t height = (int32_t)coded;
+    if (!settle_height(load->map, 0, &height))
         return YB_ERR_CORRUPT;
     if (corners == 0) {
         load->frame_height = height;
@@ -107,40 +128,38 @@ static yb_status_t end_body(yb_load_t *load)
     return YB_OK;
 }
 
-static yb_status_t take_dimension(yb_map_t *map, yb_load_t *load, uint32_t d)
+static yb_status_t take_dimension(yb_load_t *load, uint32_t d)
 {
-    map->hurst_q8m1 = (uint8_t)(255 - d); /* H = 2 - D = (256 - d) / 256 */
+    load->map->hurst_q8m1 = (uint8_t)(255 - d); /* H = 2 - D = (256 - d) / 256 */
     load->state = HEIGHT;
     return load->contour_count > 0 ? YB_MORE : end_body(load);
 }
 
 /* A point has come: it lies in the frame or the code is corrupt. */
-static yb_status_t take_point(yb_map_t *map, yb_load_t *load, int32_t x, int32_t y)
+static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 {
-    if (x < 0 || y < 0 || x > map->east_q8 >> 8 || y > map->north_q8 >> 8)
+    if (x < 0 || y < 0 || x > load->map->east_q8 >> 8 || y > load->map->north_q8 >> 8)
         return YB_ERR_CORRUPT;
     const yb_contour_t *contour = &load->contour[load->at];
-    yb_vertex_t *point = &map->vertex[map->vertex_count];
+    yb_vertex_t *point = &load->map->vertex[load->map->vertex_count];
     point->x_q8 = (uint16_t)(x << 8);
     point->y_q8 = (uint16_t)(y << 8);
-    point->z_q8 = map->vertex[contour->first].z_q8;
-    map->vertex_count++;
+    point->z_q8 = load->map->vertex[contour->first].z_q8;
+    load->map->vertex_count++;
     load->state = STEP;
-    if (map->vertex_count < contour->first + contour->count)
+    if (load->map->vertex_count < contour->first + contour->count)
         return YB_MORE;
     load->at++;
     load->state = HEIGHT;
     return load->at < load->contour_count ? YB_MORE : end_body(load);
 }
 
-static yb_status_t take_height(yb_map_t *map, yb_load_t *load, uint32_t coded)
+static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 {
-    int32_t height = height_q8(map, coded);
-    if (height < 0)
-        return YB_ERR_CORRUPT;
-    map->vertex[map->vertex_count].z_q8 = height;
+    int32_t *height = &load->map->vertex[load->map->vertex_count].z_q8;
+    *height = (int32_t)coded;
     load->state = START;
-    return YB_MORE;
+    return settle_height(load->map, 0, height) ? YB_MORE : YB_ERR_CORRUPT;
 }
 
 /* Six bits as a signed number, times the coded shift. */
@@ -149,55 +168,55 @@ static int32_t difference(const yb_load_t *load, uint32_t six)
     return ((int32_t)(six & 63) - ((six & 32) != 0 ? 64 : 0)) * (1 << (load->flags & 3));
 }
 
-static yb_status_t take_step(yb_map_t *map, yb_load_t *load, uint32_t twelve)
+static yb_status_t take_step(yb_load_t *load, uint32_t twelve)
 {
-    const yb_vertex_t *last = &map->vertex[map->vertex_count - 1];
-    return take_point(map, load, (last->x_q8 >> 8) + difference(load, twelve >> 6),
+    const yb_vertex_t *last = &load->map->vertex[load->map->vertex_count - 1];
+    return take_point(load, (last->x_q8 >> 8) + difference(load, twelve >> 6),
                       (last->y_q8 >> 8) + difference(load, twelve));
 }
 
-static yb_status_t take_field(yb_map_t *map, yb_load_t *load, uint32_t field)
+static yb_status_t take_field(yb_load_t *load, uint32_t field)
 {
+    if (load->state <= GAIN)
+        return take_header(load, field);
     switch ((enum state)load->state) {
-    case HEADER:
-        return take_header(map, load, (uint8_t)field);
     case FRAME_HEIGHTS:
-        return take_frame_height(map, load, field);
+        return take_frame_height(load, field);
     case COUNTS:
         return take_count(load, field);
     case DIMENSION:
-        return take_dimension(map, load, field);
+        return take_dimension(load, field);
     case HEIGHT:
-        return take_height(map, load, field);
+        return take_height(load, field);
     case START:
-        return take_point(map, load, (int32_t)(field >> 8), (int32_t)(field & 255));
+        return take_point(load, (int32_t)(field >> 8), (int32_t)(field & 255));
     case STEP:
-        return take_step(map, load, field);
-    case END:
-        break;
+        return take_step(load, field);
+    default:
+        return YB_ERR_CORRUPT;
     }
-    return YB_ERR_CORRUPT;
 }
 
 void paper_begin(yb_load_t *load)
 {
-    load->at = 1;                 /* of the header */
     load->section = SECTION_LAST; /* none follow */
 }
 
-yb_status_t paper_take(yb_map_t *map, yb_load_t *load, uint8_t byte)
+yb_status_t paper_take(yb_load_t *load, uint8_t byte)
 {
     static const uint8_t width[] YB_ROM = {
-        [HEADER] = 8,  [FRAME_HEIGHTS] = 16, [COUNTS] = 8, [DIMENSION] = 8,
-        [HEIGHT] = 16, [START] = 16,         [STEP] = 12,  [END] = 8,
+        [FLAGS] = 8,  [CONTOURS] = 8,  [VERTICES] = 8, [EAST] = 8,           [NORTH] = 8,
+        [CELL] = 16,  [UNIT] = 16,     [BASE] = 16,    [SEED] = 8,           [GAIN] = 8,
+        [COUNTS] = 8, [DIMENSION] = 8, [HEIGHT] = 16,  [FRAME_HEIGHTS] = 16, [START] = 16,
+        [STEP] = 12,  [END] = 8,
     };
     load->bits = load->bits << 8 | byte; /* at most 15 bits held before, 23 now */
-    load->bits_held = (uint8_t)(load->bits_held + 8);
+    load->bits_held += 8;
     yb_status_t status = YB_MORE;
     uint8_t bits = yb_rom_u8(&width[load->state]);
     while (status == YB_MORE && load->bits_held >= bits) {
-        load->bits_held = (uint8_t)(load->bits_held - bits);
-        status = take_field(map, load, load->bits >> load->bits_held & (((uint32_t)1 << bits) - 1));
+        load->bits_held -= bits;
+        status = take_field(load, load->bits >> load->bits_held & (((uint32_t)1 << bits) - 1));
         bits = yb_rom_u8(&width[load->state]);
     }
     return status;

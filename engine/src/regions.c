@@ -8,40 +8,31 @@
 
 static yb_triangle_t root_of(yb_load_t *load, yb_triangle_t t)
 {
-    while (load->root[t] != t) {
-        load->root[t] = load->root[load->root[t]]; /* halve the path */
-        t = load->root[t];
+    yb_triangle_t *root = load->root;
+    while (root[t] != t) {
+        root[t] = root[root[t]]; /* halve the path */
+        t = root[t];
     }
     return t;
 }
 
-/* The region to the left of the contour edge from a to b. */
-static yb_index_t left_of(const yb_map_t *map, const yb_load_t *load, yb_index_t a, yb_index_t b)
+yb_status_t regions_find(yb_load_t *load)
 {
-    yb_triangle_t t = first_at(map, load, a);
-    while (corner_after(map, t, a) != b)
-        t = turn_left(map, load, t, a);
-    return load->region[t];
-}
-
-yb_status_t regions_find(const yb_map_t *map, yb_load_t *load)
-{
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++)
+    for (yb_triangle_t t = 0; t < load->map->triangle_count; t++)
         load->root[t] = t;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++) {
-            yb_entry_t u = entry_of(load, t, i);
-            if (u >= t) /* each edge once; not across the frame, not across a contour */
-                continue;
-            /* The smaller index wins: a root is the first triangle of its region. */
-            yb_triangle_t a = root_of(load, t);
-            yb_triangle_t b = root_of(load, (yb_triangle_t)u);
-            load->root[a > b ? a : b] = a > b ? b : a;
-        }
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
+        yb_triangle_t t = (yb_triangle_t)triangle_of(e);
+        int u = entry_of(load, e);
+        if (u >= (int)t) /* each edge once; not across the frame, not across a contour */
+            continue;
+        /* The smaller index wins: a root is the first triangle of its region. */
+        yb_triangle_t a = root_of(load, t);
+        yb_triangle_t b = root_of(load, (yb_triangle_t)u);
+        load->root[a > b ? a : b] = a > b ? b : a;
     }
     /* From roots to numbers: a triangle's parent has a smaller index, so it is done. */
     load->region_count = 0;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+    for (yb_triangle_t t = 0; t < load->map->triangle_count; t++) {
         yb_triangle_t parent = load->root[t];
         load->region[t] = load->region[parent];
         if (parent == t)
@@ -50,16 +41,20 @@ yb_status_t regions_find(const yb_map_t *map, yb_load_t *load)
     int lines = 0;
     for (int i = 0; i < load->contour_count; i++) {
         yb_contour_t *contour = &load->contour[i];
-        yb_index_t a = contour->first;
-        yb_index_t b = (yb_index_t)(a + 1);
+        int a = contour->first;
+        contour->left = contour->right = load->region[load->star[a]];
         if (contour->count > 1) {
-            contour->left = left_of(map, load, a, b);
-            contour->right = left_of(map, load, b, a);
+            contour->left = (yb_index_t)region_of(load, spoke_to(load, a, a + 1));
+            contour->right = (yb_index_t)region_of(load, spoke_to(load, a + 1, a));
             lines++;
-        } else {
-            contour->left = contour->right = load->region[load->star[a]];
         }
     }
     /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */
     return load->region_count == lines + 1 ? YB_OK : YB_ERR_CORRUPT;
+}
+
+int region_beside(const yb_load_t *load, int k)
+{
+    const yb_contour_t *contour = &load->contour[k >> 1];
+    return (k & 1) == 0 ? contour->left : contour->right;
 }

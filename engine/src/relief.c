@@ -15,6 +15,9 @@ enum {
 /* One in the units of fix_log2_q11. */
 #define ONE_Q11 ((int32_t)2048)
 
+/* The logarithm of nothing: what is added to it does not count. */
+#define NOTHING_Q11 (-((int32_t)1 << 30))
+
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
 
 static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
@@ -74,68 +77,65 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
 
 /* --- The constants of the map ----------------------------------------------------------------- */
 
+/* The slope -sum / sum_z, with 11 bits, cut: sums count heights in 1/256 step and plan differences
+ * in 1/64 step, 2 bits; 9 more make 2^58 in all, and the steepest slope less than 2^62. Counted
+ * from the steepest one downwards, so that the division rounds down, like everything.
+ */
+static int16_t slope_q11(int64_t sum, int64_t sum_z)
+{
+    const int32_t most = YB_MAX_SLOPE_Q11;
+    int64_t above = most * sum_z - sum * 512;
+    int64_t slope = above < 0 ? 0 : above / sum_z;
+    return (int16_t)((slope > 2 * most ? 2 * most : (int32_t)slope) - most);
+}
+
 /* Slope of the smooth surface at v: the area-weighted mean over the triangles that meet there, flat
  * ones left out. The upward normals n of triangles twice their area long are just summed: the slope
  * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^14 1/64 steps and heights
  * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49.
  */
-static void find_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
+static void find_slope(const yb_load_t *load, int v)
 {
-    int64_t sum_x = 0;
-    int64_t sum_y = 0;
-    int64_t sum_z = 0;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        const yb_vertex_t *a = &map->vertex[map->triangle[t][0]];
-        const yb_vertex_t *b = &map->vertex[map->triangle[t][1]];
-        const yb_vertex_t *c = &map->vertex[map->triangle[t][2]];
-        int32_t abx = fix_minus(b->x_q8, a->x_q8) >> 2;
-        int32_t aby = fix_minus(b->y_q8, a->y_q8) >> 2;
-        int32_t abz = b->z_q8 - a->z_q8;
-        int32_t acx = fix_minus(c->x_q8, a->x_q8) >> 2;
-        int32_t acy = fix_minus(c->y_q8, a->y_q8) >> 2;
-        int32_t acz = c->z_q8 - a->z_q8;
-        if (abz != 0 || acz != 0) {
-            sum_x += (int64_t)aby * acz - (int64_t)abz * acy;
-            sum_y += (int64_t)abz * acx - (int64_t)abx * acz;
-            sum_z += abx * acy - aby * acx;
+    int64_t sum[3] = {0, 0, 0};
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
+        int32_t right[3];
+        int32_t left[3];
+        find_way(load, v, end_of(load, e), right);
+        find_way(load, v, apex_of(load, e), left);
+        int j = 1;
+        int k = 2;
+        for (int i = 0; i < 3 && (right[2] | left[2]) != 0; i++) {
+            sum[i] += (int64_t)right[j] * left[k] - (int64_t)right[k] * left[j];
+            j = k;
+            k = i;
         }
     }
-    map->vertex[v].gx_q11 = 0;
-    map->vertex[v].gy_q11 = 0;
-    if (sum_z == 0)
-        return; /* flat all round: level */
-    /* Heights count 1/256 step, plan differences 1/64 step: 2 bits; with the slope's 11, times 2^9,
-     * 2^58 in all. Rounded down, like everything. */
-    int64_t gx = -sum_x * 512;
-    int64_t gy = -sum_y * 512;
-    gx = gx >= 0 ? gx / sum_z : -((sum_z - 1 - gx) / sum_z);
-    gy = gy >= 0 ? gy / sum_z : -((sum_z - 1 - gy) / sum_z);
-    const int64_t most = YB_MAX_SLOPE_Q11;
-    map->vertex[v].gx_q11 = (int16_t)(gx > most ? most : gx < -most ? -most : gx);
-    map->vertex[v].gy_q11 = (int16_t)(gy > most ? most : gy < -most ? -most : gy);
+    yb_vertex_t *a = &load->map->vertex[v];
+    bool level = sum[2] == 0; /* flat all round */
+    a->gx_q11 = level ? 0 : slope_q11(sum[0], sum[2]);
+    a->gy_q11 = level ? 0 : slope_q11(sum[1], sum[2]);
 }
 
 /* Keeps the parabolas on the edges at v from overshooting: none may begin more than half as steep
  * again as its chord, in the chord's direction (one up to twice as steep would still be monotone).
  * Slopes are at most 2^13 and plan differences below 2^16: s is within 2^30, in 1/2048 height
- * units; rises are within 2^18, so 1.5 · 2048 times that, and 15 bits, is below 2^45.
+ * units; rises are within 2^18, so 1.5 · 2048 times that is below 2^30.
  */
-static void limit_slope(yb_map_t *map, const yb_load_t *load, yb_index_t v)
+static void limit_slope(const yb_load_t *load, int v)
 {
-    yb_vertex_t *a = &map->vertex[v];
+    yb_vertex_t *a = &load->map->vertex[v];
     int32_t share_q15 = 32768;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        for (int i = 0; i < 3; i++) {
-            const yb_vertex_t *b = &map->vertex[map->triangle[t][i]];
+    half_t next = first_spoke(load, v);
+    while (next != NO_HALF) { /* from neighbour to neighbour: the last triangle may have two */
+        half_t e = next;
+        next = spoke_after(load, e);
+        for (int i = next == NO_HALF ? 0 : 1; i < 2; i++) {
+            const yb_vertex_t *b = vertex_of(load, i == 0 ? apex_of(load, e) : end_of(load, e));
             int32_t s =
                 a->gx_q11 * fix_minus(b->x_q8, a->x_q8) + a->gy_q11 * fix_minus(b->y_q8, a->y_q8);
-            int32_t rise = b->z_q8 - a->z_q8;
-            int64_t most = (int64_t)fix_abs(rise) * 3072;
-            int32_t along = fix_abs(s);
-            if (rise != 0 && along != 0 && (rise > 0) == (s > 0) && along > most)
-                share_q15 = fix_min(share_q15, (int32_t)((most << 15) / along));
+            int32_t most = (b->z_q8 - a->z_q8) * 3072;
+            if ((s > 0) == (most > 0) && most != 0 && fix_abs(s) > fix_abs(most))
+                share_q15 = fix_min(share_q15, fix_scale(most, 32768, s));
         }
     }
     a->gx_q11 = (int16_t)((a->gx_q11 * share_q15) >> 15);
@@ -150,49 +150,45 @@ static int32_t log2_square_q11(uint32_t half_square)
     return fix_log2_q11(half_square) - 14 * ONE_Q11;
 }
 
-/* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or INT32_MIN if no
- * edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18, and
- * kept with 8 more bits where it is small enough; 1020 terms.
+/* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or NOTHING_Q11 if
+ * no edge rises. Each term is 2^(2 log2 rise - H log2 L^2): at most 2^34, as rise is below 2^18,
+ * and kept with 8 more bits where it is small enough; 1020 terms.
  */
-static int32_t log2_roughness(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
+static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
 {
     uint64_t sum = 0;
     uint32_t edges = 0;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++) {
-            yb_triangle_t u = neighbour_of(load, t, i);
-            if (u < t)
-                continue; /* each edge once; those of the frame too */
-            edges++;
-            const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
-            const yb_vertex_t *b = &map->vertex[map->triangle[t][next3(i)]];
-            uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
-            if (rise == 0)
-                continue;
-            int32_t dx = fix_abs(fix_minus(b->x_q8, a->x_q8)) >> 1;
-            int32_t dy = fix_abs(fix_minus(b->y_q8, a->y_q8)) >> 1;
-            int32_t square = log2_square_q11((uint32_t)(dx * dx) + (uint32_t)(dy * dy));
-            int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
-            sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
-                                       : (uint64_t)fix_exp2_q11(term) << 8;
-        }
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
+        if ((entry_of(load, e) & NO_TRIANGLE) < triangle_of(e))
+            continue; /* each edge once; those of the frame too */
+        edges++;
+        const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
+        const yb_vertex_t *b = vertex_of(load, end_of(load, e));
+        uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
+        if (rise == 0)
+            continue;
+        int32_t square = log2_square_q11(
+            relief_half_square(fix_minus(b->x_q8, a->x_q8), fix_minus(b->y_q8, a->y_q8)));
+        int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
+        sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
+                                   : (uint64_t)fix_exp2_q11(term) << 8;
     }
-    if (edges == 0 || sum < edges)
-        return INT32_MIN;
+    if (sum < edges)
+        return NOTHING_Q11;
     return fix_log2_q11(sum / edges) - 8 * ONE_Q11;
 }
 
 /* Amplitude by SPEC 3.3: log2 of the standard deviation, in q8 height, of the displacement of an
- * edge one step long; INT32_MIN for none.
+ * edge one step long.
  */
-static int32_t log2_amplitude(const yb_map_t *map, const yb_load_t *load, int32_t hurst_q8)
+static int32_t log2_amplitude(const yb_load_t *load, int32_t hurst_q8)
 {
     /* A midpoint of fractional Brownian motion strays by L^H 2^-H sqrt(1 - 2^(2H-2)). */
     uint32_t rest = 65536 - fix_exp2_q11((2 * hurst_q8 - 512) * 8 + 16 * ONE_Q11);
-    int32_t roughness = log2_roughness(map, load, hurst_q8);
-    if (rest == 0 || load->gain == 0 || roughness == INT32_MIN)
-        return INT32_MIN;
-    int32_t variance = roughness + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
+    if (rest == 0 || load->gain == 0)
+        return NOTHING_Q11;
+    int32_t variance =
+        log2_roughness(load, hurst_q8) + fix_log2_q11(rest) - 16 * ONE_Q11 - hurst_q8 * 16;
     return (variance >> 1) + fix_log2_q11(load->gain) - 5 * ONE_Q11;
 }
 
@@ -217,11 +213,8 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
     for (int c = 0; c < YB_LENGTH_CLASSES; c++) {
         /* The class stands for the geometric middle of its lengths: log2 (L/2)^2 = c/2 + 1/4. */
         int32_t length = (fix_min(c, LONGEST_CLASS) * 1024 + 512 - 14 * ONE_Q11) >> 1;
-        uint32_t scale = 0;
-        if (amplitude != INT32_MIN) {
-            int32_t e = amplitude + ((hurst_q8 * length) >> 8);
-            scale = fix_exp2_q11(e + RELIEF_NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
-        }
+        uint32_t scale = fix_exp2_q11(amplitude + ((hurst_q8 * length) >> 8) +
+                                      RELIEF_NOISE_SHIFT * ONE_Q11 - HASH_LOG2_Q11);
         map->noise[c] = (uint16_t)(scale > 65535 ? 65535 : scale);
         uint32_t move = most_move(map->noise[c], c);
         uint32_t reach = scale == 0 ? 0 : 2 * move + (c >= 4 ? map->reach_q8[c - 4] : 0u);
@@ -242,16 +235,17 @@ static int32_t most_stray(const yb_map_t *map)
     return farthest;
 }
 
-void relief_prepare(yb_map_t *map, const yb_load_t *load)
+void relief_prepare(const yb_load_t *load)
 {
+    yb_map_t *map = load->map;
     map->low_q8 = map->high_q8 = map->vertex[0].z_q8;
     for (int i = 0; i < map->vertex_count; i++) {
         map->low_q8 = fix_min(map->low_q8, map->vertex[i].z_q8);
         map->high_q8 = fix_max(map->high_q8, map->vertex[i].z_q8);
-        find_slope(map, load, (yb_index_t)i);
-        limit_slope(map, load, (yb_index_t)i);
+        find_slope(load, i);
+        limit_slope(load, i);
     }
     int32_t hurst_q8 = map->hurst_q8m1 + 1;
-    fill_tables(map, log2_amplitude(map, load, hurst_q8), hurst_q8);
+    fill_tables(map, log2_amplitude(load, hurst_q8), hurst_q8);
     map->stray_q8 = most_stray(map);
 }

@@ -14,84 +14,83 @@
  */
 #include "mesh.h"
 
-/* Is edge i of t one to be split: of one height, and no contour or link? */
-static bool is_bridge(const yb_map_t *map, const yb_load_t *load, yb_triangle_t t, int i)
+/* Is an edge one to be split: of one height, and no contour or link? */
+static bool is_bridge(const yb_load_t *load, half_t e)
 {
-    yb_index_t a = map->triangle[t][i];
-    yb_index_t b = map->triangle[t][next3(i)];
-    return !is_marked(load, t, i) && a < load->first_skeleton && b < load->first_skeleton &&
-           map->vertex[a].z_q8 == map->vertex[b].z_q8;
+    int a = origin_of(load, e);
+    int b = end_of(load, e);
+    return !is_marked(load, e) && a < load->first_skeleton && b < load->first_skeleton &&
+           height_at(load, a) == height_at(load, b);
 }
 
 /* A bridge, and what its middle is reached from. */
 typedef struct {
-    yb_triangle_t t;
-    int edge;
+    half_t half;
     uint32_t key; /* its place in the order of edges */
-    yb_index_t parent, other;
+    int parent, other;
 } bridge_t;
 
 /* Splits a bridge; the height of its middle is that of the edge until heights are known. */
-static yb_status_t split_bridge(yb_map_t *map, yb_load_t *load, const bridge_t *bridge)
+static yb_status_t split_bridge(yb_load_t *load, const bridge_t *bridge)
 {
-    const yb_vertex_t *a = &map->vertex[map->triangle[bridge->t][bridge->edge]];
-    const yb_vertex_t *b = &map->vertex[map->triangle[bridge->t][next3(bridge->edge)]];
-    yb_index_t m = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, fix_middle(a->x_q8, b->x_q8), fix_middle(a->y_q8, b->y_q8),
-                        a->z_q8) != YB_OK)
+    yb_vertex_t middle;
+    yb_index_t m = (yb_index_t)load->map->vertex_count;
+    find_middle(load, bridge->half, &middle);
+    if (mesh_insert(load, bridge->half, &middle) != YB_OK)
         return YB_ERR_LIMIT;
-    load->branch[m] = (yb_branch_t){.parent = bridge->parent, .other = bridge->other, .end = m};
-    mesh_split(map, load, bridge->t, bridge->edge, m);
+    load->branch[m] = (yb_branch_t){
+        .parent = (yb_index_t)bridge->parent, .other = (yb_index_t)bridge->other, .end = m};
     return YB_OK;
 }
 
-static bool meets(const yb_load_t *load, yb_index_t m)
+static bool meets(const yb_load_t *load, int m)
 {
     return load->branch[m].other != m;
 }
 
-/* The first point of the branch that v belongs to, and how far that is from v. */
-static yb_index_t beginning_of(const yb_map_t *map, const yb_load_t *load, yb_index_t v,
-                               int32_t *length)
+/* The first point of the branch that v belongs to. */
+static int beginning_of(const yb_load_t *load, int v)
 {
-    while (load->branch[v].parent >= load->first_skeleton) {
-        *length += edge_length(map, load->branch[v].parent, v);
+    while (load->branch[v].parent >= load->first_skeleton)
         v = load->branch[v].parent;
-    }
     return v;
+}
+
+/* How steep the ground rises, or, below 0, falls from a to b, in 1/256. Rises are within 2^18. */
+static int32_t slope_to(const yb_load_t *load, int a, int b)
+{
+    return (height_at(load, b) - height_at(load, a)) * 256 / edge_length(load, a, b);
 }
 
 /* How steep the ground is from which the branch with the first point m comes, in 1/256: the
  * steepest edge that goes on beyond, or else that to m. Where branches from two peaks meet, ways
- * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1). Rises are within 2^18.
+ * are as the slopes: s_a · way_a = s_b · way_b (6.2: the ratio of 5.1).
  */
-static uint32_t steepness(const yb_map_t *map, const yb_load_t *load, yb_index_t m)
+static uint32_t steepness(const yb_load_t *load, int m)
 {
-    yb_index_t p = load->branch[m].parent;
-    int32_t up = map->vertex[p].z_q8 - map->vertex[m].z_q8;
-    int32_t slope = 0;
-    yb_triangle_t first = first_at(map, load, p);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, p, first)) {
-        for (int i = 0; i < 3; i++) {
-            yb_index_t q = map->triangle[t][i];
-            int32_t on = map->vertex[q].z_q8 - map->vertex[p].z_q8;
-            if (q < load->first_skeleton && on != 0 && (on > 0) == (up > 0)) {
-                slope = fix_max(slope, (fix_abs(on) << 8) / edge_length(map, p, q));
+    int p = load->branch[m].parent;
+    bool falls = height_at(load, p) < height_at(load, m);
+    int32_t steepest = 0;
+    for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
+        for (int k = 0; k < 2; k++) {
+            int q = k == 0 ? end_of(load, e) : apex_of(load, e);
+            if (q < load->first_skeleton) {
+                int32_t slope = slope_to(load, p, q);
+                steepest = fix_max(steepest, falls ? -slope : slope);
             }
         }
     }
-    if (slope == 0)
-        slope = (fix_abs(up) << 8) / edge_length(map, p, m);
-    return (uint32_t)fix_clamp(slope, 1, 1 << 14);
+    if (steepest == 0)
+        steepest = fix_abs(slope_to(load, p, m));
+    return (uint32_t)fix_clamp(steepest, 1, 1 << 14);
 }
 
 /* A way and one edge more, weighted, as far as 32 bits go. Weights are at most 2^14 and lengths
  * below 2^17: the edge adds less than 2^26.
  */
-static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_index_t a,
-                        yb_index_t b)
+static uint32_t add_way(const yb_load_t *load, uint32_t way, uint32_t weight, int a, int b)
 {
-    uint32_t sum = way + weight * (uint32_t)(edge_length(map, a, b) >> 5);
+    uint32_t sum = way + weight * (uint32_t)(edge_length(load, a, b) >> 5);
     return sum < way ? UINT32_MAX : sum;
 }
 
@@ -99,159 +98,119 @@ static uint32_t add_way(const yb_map_t *map, uint32_t way, uint32_t weight, yb_i
  * middle itself if that is one point only. On the frame a bridge between two points of lines is met
  * by its mirror image; the frame's own corners, at one height, bridge nothing. False: none begins.
  */
-static bool begins_branch(const yb_map_t *map, const yb_load_t *load, bridge_t *bridge)
+static bool begins_branch(const yb_load_t *load, bridge_t *bridge)
 {
-    yb_triangle_t t = bridge->t;
-    int i = bridge->edge;
-    int32_t h = map->vertex[map->triangle[t][i]].z_q8;
-    yb_index_t p = map->triangle[t][prev3(i)];
-    yb_index_t q = p;
-    if (entry_of(load, t, i) != NO_TRIANGLE)
-        q = apex_across(map, load, t, i);
+    int32_t h = height_at(load, origin_of(load, bridge->half));
+    int p = apex_of(load, bridge->half);
+    int q = p;
+    half_t twin = twin_of(load, bridge->half);
+    if (twin != NO_HALF)
+        q = apex_of(load, twin);
     else if ((bridge->key & 0xffff) >= load->point_count)
         return false;
     /* The lower number first; but flat ground last. */
-    bool swap = map->vertex[p].z_q8 == h || (q < p && map->vertex[q].z_q8 != h);
+    bool swap = height_at(load, p) == h || (q < p && height_at(load, q) != h);
     bridge->parent = swap ? q : p;
     bridge->other = swap ? p : q;
-    int32_t up = map->vertex[bridge->parent].z_q8 - h;
-    int32_t up_other = map->vertex[bridge->other].z_q8 - h;
+    int32_t up = height_at(load, bridge->parent) - h;
+    int32_t up_other = height_at(load, bridge->other) - h;
     if (up_other == 0 && bridge->other < load->first_skeleton)
-        bridge->other = (yb_index_t)map->vertex_count;
+        bridge->other = load->map->vertex_count;
     /* Points of this stage still have their edge's height. Ground that goes on falling across the
      * bridge needs no point on it. */
     return up != 0 && (up_other == 0 || (up > 0) == (up_other > 0));
 }
 
-/* The bridge from v to the lowest higher number at which a branch begins. */
-static bool find_beginning(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
+/* The bridge from v to the lowest higher number at which a branch begins: one that has a point of
+ * another height on one side, and on the other flat ground, or another such point: then a bridge is
+ * all there is.
+ */
+static bool find_beginning(const yb_load_t *load, int v, bridge_t *next)
 {
-    next->key = UINT32_MAX;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        int at = corner_of(map, t, v);
-        for (int k = 0; k < 2; k++, at = prev3(at)) {
-            bridge_t bridge = {t, at, mesh_edge_key(map, t, at), v, v};
-            if (bridge.key >> 16 == v && bridge.key < next->key && is_bridge(map, load, t, at) &&
-                begins_branch(map, load, &bridge))
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
+        for (int k = 0; k < 2; k++) {
+            half_t side = k == 0 ? e : last_of(e);
+            bridge_t bridge = {side, edge_key(load, side), v, v};
+            if (bridge.key >> 16 == (uint32_t)v && bridge.key < next->key &&
+                is_bridge(load, side) && begins_branch(load, &bridge))
                 *next = bridge;
         }
     }
     return next->key != UINT32_MAX;
 }
 
-/* Branches begin at bridges that have a point of another height on one side, and on the other flat
- * ground, or another such point: then a bridge is all there is. In the order of their ends'
- * numbers.
+/* The next bridge that point v looks at. One on the frame counts as met by its mirror image. */
+static bool find_bridge(const yb_load_t *load, int v, bridge_t *next)
+{
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
+        half_t opposite = next_of(e);
+        uint32_t key = edge_key(load, opposite);
+        if (key < next->key && is_bridge(load, opposite)) {
+            next->half = opposite;
+            next->key = key;
+        }
+    }
+    if (next->key == UINT32_MAX)
+        return false;
+    half_t twin = twin_of(load, next->half);
+    if (twin != NO_HALF) {
+        int q = apex_of(load, twin);
+        /* v still has the height of the bridge that it splits, and of its flat ground, where the
+         * new point will grow on. */
+        bool flat = q < load->first_skeleton && height_at(load, q) == height_at(load, v);
+        next->other = flat ? load->map->vertex_count : q;
+    }
+    return true;
+}
+
+/* Splits all bridges at v where branches begin, or, if v is a point of a branch, that it looks at.
  */
-static yb_status_t begin_branches(yb_map_t *map, yb_load_t *load)
+static yb_status_t split_bridges(yb_load_t *load, int v)
+{
+    bool begins = v < load->first_skeleton;
+    for (;;) {
+        bridge_t bridge = {NO_HALF, UINT32_MAX, v, v};
+        if (!(begins ? find_beginning(load, v, &bridge) : find_bridge(load, v, &bridge)))
+            return YB_OK;
+        int m = load->map->vertex_count;
+        if (split_bridge(load, &bridge) != YB_OK)
+            return YB_ERR_LIMIT;
+        uint32_t weight = steepness(load, begins ? m : beginning_of(load, v));
+        load->way[m] = add_way(load, begins ? 0 : load->way[v], weight, bridge.parent, m);
+    }
+}
+
+/* First the beginnings, in the order of their bridges' ends. Then always the shortest way, so that
+ * branches meet where the slopes from both sides would.
+ */
+static yb_status_t grow(yb_load_t *load)
 {
     for (int v = 0; v < load->first_skeleton; v++) {
-        bridge_t bridge;
-        while (find_beginning(map, load, (yb_index_t)v, &bridge)) {
-            yb_index_t m = (yb_index_t)map->vertex_count;
-            if (split_bridge(map, load, &bridge) != YB_OK)
-                return YB_ERR_LIMIT;
-            load->way[m] = add_way(map, 0, steepness(map, load, m), bridge.parent, m);
-        }
-    }
-    return YB_OK;
-}
-
-/* The next bridge that point v looks at. */
-static bool find_bridge(const yb_map_t *map, const yb_load_t *load, yb_index_t v, bridge_t *next)
-{
-    next->key = UINT32_MAX;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        int i = next3(corner_of(map, t, v));
-        uint32_t key = mesh_edge_key(map, t, i);
-        if (key < next->key && is_bridge(map, load, t, i))
-            *next = (bridge_t){.t = t, .edge = i, .key = key, .parent = v, .other = v};
-    }
-    return next->key != UINT32_MAX;
-}
-
-/* Splits all bridges that v looks at. One on the frame counts as met by its mirror image. */
-static yb_status_t grow(yb_map_t *map, yb_load_t *load, yb_index_t v)
-{
-    int32_t unused = 0;
-    int32_t h =
-        map->vertex[v].z_q8; /* still that of the bridge that v splits, and of its flat ground */
-    uint32_t weight = steepness(map, load, beginning_of(map, load, v, &unused));
-    bridge_t bridge;
-    while (find_bridge(map, load, v, &bridge)) {
-        yb_index_t m = (yb_index_t)map->vertex_count;
-        if (neighbour_of(load, bridge.t, bridge.edge) != NO_TRIANGLE) {
-            yb_index_t q = apex_across(map, load, bridge.t, bridge.edge);
-            bool flat = q < load->first_skeleton && map->vertex[q].z_q8 == h;
-            bridge.other = flat ? m : q; /* flat ground: it will grow on */
-        }
-        if (split_bridge(map, load, &bridge) != YB_OK)
+        if (split_bridges(load, v) != YB_OK)
             return YB_ERR_LIMIT;
-        load->way[m] = add_way(map, load->way[v], weight, v, m);
     }
-    load->branch[v].grown = true;
-    return YB_OK;
-}
-
-/* The shortest way first, so that branches meet where the slopes from both sides would. */
-static yb_status_t grow_all(yb_map_t *map, yb_load_t *load)
-{
     for (;;) {
         int next = -1;
-        for (int v = load->first_skeleton; v < map->vertex_count; v++) {
-            const yb_branch_t *branch = &load->branch[v];
-            if (!branch->grown && (next < 0 || load->way[v] < load->way[next]))
+        for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
+            if (!load->branch[v].grown && (next < 0 || load->way[v] < load->way[next]))
                 next = v;
         }
         if (next < 0)
             return YB_OK;
-        if (grow(map, load, (yb_index_t)next) != YB_OK)
+        if (split_bridges(load, next) != YB_OK)
             return YB_ERR_LIMIT;
+        load->branch[next].grown = true;
     }
-}
-
-/* Keeps z strictly on the side of h that the branch came from, by `least` at the least. */
-static int32_t keep_off(int32_t z, int32_t h, int32_t from, int32_t least)
-{
-    least = fix_max(least, 1);
-    return from > h ? fix_max(z, h + least) : fix_min(z, h - least);
-}
-
-/* Where two branches meet: a saddle half way up to the height of the sides if both began at one
- * height, else on the even slope from one beginning to the other.
- */
-static int32_t meeting_height(const yb_map_t *map, const yb_load_t *load, yb_index_t m)
-{
-    int32_t h = map->vertex[m].z_q8;
-    yb_index_t side[2] = {load->branch[m].parent, load->branch[m].other};
-    int32_t way[2];
-    int32_t z[2];
-    for (int k = 0; k < 2; k++) {
-        yb_index_t from = side[k];
-        way[k] = edge_length(map, m, from);
-        if (from >= load->first_skeleton) {
-            yb_index_t first = beginning_of(map, load, from, &way[k]);
-            from = load->branch[first].parent;
-            way[k] += edge_length(map, first, from);
-        }
-        z[k] = map->vertex[from].z_q8;
-    }
-    int32_t at =
-        z[0] == z[1] ? (z[0] + h) / 2 : z[0] + fix_scale(z[1] - z[0], way[0], way[0] + way[1]);
-    return keep_off(at, h, z[0], fix_abs(h - z[0]) / 8);
 }
 
 /* How far the contour is on from a point with no branch beyond it. */
-static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_index_t v)
+static uint32_t way_to_contour(const yb_load_t *load, int v)
 {
     int32_t way = 0;
-    yb_triangle_t first = first_at(map, load, v);
-    for (yb_triangle_t t = first; t != NO_TRIANGLE; t = turn_on(map, load, t, v, first)) {
-        yb_index_t side = corner_after(map, t, v);
-        if (side < load->first_skeleton && map->vertex[side].z_q8 == map->vertex[v].z_q8)
-            way = fix_max(way, edge_length(map, v, side));
+    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
+        int side = end_of(load, e);
+        if (side < load->first_skeleton && height_at(load, side) == height_at(load, v))
+            way = fix_max(way, edge_length(load, v, side));
     }
     return (uint32_t)way;
 }
@@ -259,59 +218,77 @@ static uint32_t way_to_contour(const yb_map_t *map, const yb_load_t *load, yb_in
 /* From the ends back to the beginnings: how far the farthest end beyond each point is, and whether
  * that is a meeting point. A point has a higher number than its parent.
  */
-static void measure_ways(const yb_map_t *map, yb_load_t *load)
+static void measure_ways(yb_load_t *load)
 {
-    for (int v = load->first_skeleton; v < map->vertex_count; v++)
+    for (int v = load->first_skeleton; v < load->map->vertex_count; v++)
         load->way[v] = 0;
-    for (int i = map->vertex_count - 1; i >= load->first_skeleton; i--) {
-        yb_index_t v = (yb_index_t)i;
-        yb_branch_t *branch = &load->branch[v];
+    for (int v = load->map->vertex_count - 1; v >= load->first_skeleton; v--) {
+        const yb_branch_t *branch = &load->branch[v];
         if (load->way[v] == 0 && !meets(load, v))
-            load->way[v] = way_to_contour(map, load, v);
+            load->way[v] = way_to_contour(load, v);
         for (int k = 0; k < 2; k++) {
-            yb_index_t p = k == 0 ? branch->parent : branch->other;
+            int p = k == 0 ? branch->parent : branch->other;
             if (p == v || p < load->first_skeleton || meets(load, p))
                 continue;
-            uint32_t way = load->way[v] + (uint32_t)edge_length(map, p, v);
+            uint32_t way = load->way[v] + (uint32_t)edge_length(load, p, v);
             if (way > load->way[p]) {
                 load->way[p] = way;
-                load->branch[p].end = meets(load, v) ? v : branch->end == v ? p : branch->end;
+                load->branch[p].end = (yb_index_t)(meets(load, v)     ? v
+                                                   : branch->end == v ? p
+                                                                      : branch->end);
             }
         }
     }
 }
 
-/* Meeting points first, then even slopes from the beginnings to the ends. */
-static void set_heights(yb_map_t *map, yb_load_t *load)
+/* The way back from v over a point beside it to where the branch began, and the height there. */
+static int32_t way_back(const yb_load_t *load, int v, int to, int32_t *way)
 {
-    for (int i = load->first_skeleton; i < map->vertex_count; i++) {
-        if (meets(load, (yb_index_t)i))
-            map->vertex[i].z_q8 = meeting_height(map, load, (yb_index_t)i);
+    *way = edge_length(load, v, to);
+    while (to >= load->first_skeleton) {
+        v = to;
+        to = load->branch[v].parent;
+        *way += edge_length(load, v, to);
     }
-    for (int i = load->first_skeleton; i < map->vertex_count; i++) {
-        yb_index_t v = (yb_index_t)i;
-        const yb_branch_t *branch = &load->branch[v];
-        if (meets(load, v))
-            continue;
-        int32_t h = map->vertex[v].z_q8;
-        int32_t from = map->vertex[branch->parent].z_q8;
-        int32_t to = map->vertex[branch->end].z_q8; /* h, if that is v itself */
-        int32_t step = edge_length(map, branch->parent, v);
-        int32_t z = from + fix_scale(to - from, step, step + (int32_t)load->way[v]);
-        bool begins = branch->parent < load->first_skeleton;
-        map->vertex[v].z_q8 = keep_off(z, h, from, begins ? fix_abs(h - from) / 8 : 0);
-    }
+    return height_at(load, to);
 }
 
-yb_status_t skeleton_add(yb_map_t *map, yb_load_t *load)
+/* Where two branches meet: a saddle half way up to the height of the sides if both began at one
+ * height, else on the even slope from one beginning to the other. All other points: on the even
+ * slope from the point before to the end. Strictly on the side of its edge's height that the branch
+ * came from.
+ */
+static int32_t height_on(const yb_load_t *load, int v)
 {
-    load->first_skeleton = map->vertex_count;
-    yb_status_t status = begin_branches(map, load);
-    if (status == YB_OK)
-        status = grow_all(map, load);
-    if (status != YB_OK)
-        return status;
-    measure_ways(map, load);
-    set_heights(map, load);
+    const yb_branch_t *branch = &load->branch[v];
+    int32_t h = height_at(load, v);
+    int32_t from = height_at(load, branch->parent);
+    int32_t to = height_at(load, branch->end); /* h, if that is v itself */
+    int32_t way = edge_length(load, branch->parent, v);
+    int32_t rest = (int32_t)load->way[v];
+    if (meets(load, v)) {
+        from = way_back(load, v, branch->parent, &way);
+        to = way_back(load, v, branch->other, &rest);
+    }
+    bool saddle = meets(load, v) && from == to;
+    int32_t z = saddle ? (from + h) / 2 : from + fix_scale(to - from, way, way + rest);
+    bool begins = meets(load, v) || branch->parent < load->first_skeleton;
+    int32_t least = begins ? fix_max(fix_abs(h - from) / 8, 1) : 1;
+    return from > h ? fix_max(z, h + least) : fix_min(z, h - least);
+}
+
+yb_status_t skeleton_add(yb_load_t *load)
+{
+    load->first_skeleton = load->map->vertex_count;
+    if (grow(load) != YB_OK)
+        return YB_ERR_LIMIT;
+    measure_ways(load);
+    /* Meeting points first: slopes end there. */
+    for (int k = 0; k < 2; k++) {
+        for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
+            if (meets(load, v) == (k == 0))
+                load->map->vertex[v].z_q8 = height_on(load, v);
+        }
+    }
     return YB_OK;
 }

@@ -16,7 +16,7 @@ enum {
 };
 
 /* Notes which regions lie beyond a region's lines; is one of them not flat? */
-static bool look_beside(yb_load_t *load, yb_index_t region)
+static bool look_beside(yb_load_t *load, int region)
 {
     bool sloping = false;
     for (int r = 0; r < load->region_count; r++)
@@ -35,16 +35,16 @@ static bool look_beside(yb_load_t *load, yb_index_t region)
 /* The smallest difference of height h from the ground in the regions beside, where all ground next
  * to the lines is flat as well. One of those regions has another height.
  */
-static int32_t rise_farther_out(const yb_map_t *map, const yb_load_t *load, int32_t h)
+static int32_t rise_farther_out(const yb_load_t *load, int32_t h)
 {
     int32_t rise = 0;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3 && (load->ground[load->region[t]] & BESIDE) != 0; i++) {
-            int32_t up = h - map->vertex[map->triangle[t][i]].z_q8;
-            bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
-            if (up != 0 && nearer)
-                rise = up;
-        }
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
+        if ((load->ground[region_of(load, e)] & BESIDE) == 0)
+            continue;
+        int32_t up = h - height_at(load, origin_of(load, e));
+        bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
+        if (up != 0 && nearer)
+            rise = up;
     }
     return rise;
 }
@@ -63,31 +63,33 @@ typedef struct {
     int64_t change;  /* the same without signs */
 } surroundings_t;
 
-static void look_round(const yb_map_t *map, const yb_load_t *load, yb_index_t region,
-                       surroundings_t *found)
+/* Area of a half's triangle: see area_of. */
+static int32_t area_at(const yb_load_t *load, half_t e)
+{
+    return side_of(load, e, vertex_of(load, apex_of(load, e)));
+}
+
+static void look_round(const yb_load_t *load, int region, surroundings_t *found)
 {
     *found = (surroundings_t){0};
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        if (load->region[t] != region)
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
+        if (region_of(load, e) != region)
             continue;
-        const yb_index_t *v = map->triangle[t];
-        found->area += orientation(map, v[0], v[1], v[2]);
-        for (int i = 0; i < 3; i++) {
-            if (!is_marked(load, t, i))
-                continue;
-            int apex = 0;
-            const yb_index_t *w = map->triangle[across(map, load, t, i, &apex)];
-            int32_t up = map->vertex[v[i]].z_q8 - map->vertex[w[apex]].z_q8;
-            int32_t length = edge_length(map, v[i], v[next3(i)]);
-            found->length += length;
-            if (up == 0)
-                continue;
-            int64_t rise = (int64_t)length * up;
-            found->sloping += length;
-            found->rise += rise;
-            found->change += rise < 0 ? -rise : rise;
-            found->outside += orientation(map, w[0], w[1], w[2]);
-        }
+        if ((e & 3) == 0)
+            found->area += area_at(load, e);
+        if (!is_marked(load, e))
+            continue;
+        half_t twin = twin_of(load, e);
+        int32_t up = height_at(load, origin_of(load, e)) - height_at(load, apex_of(load, twin));
+        int32_t length = half_length(load, e);
+        found->length += length;
+        if (up == 0)
+            continue;
+        int64_t rise = (int64_t)length * up;
+        found->sloping += length;
+        found->rise += rise;
+        found->change += rise < 0 ? -rise : rise;
+        found->outside += area_at(load, twin);
     }
 }
 
@@ -96,12 +98,12 @@ static void look_round(const yb_map_t *map, const yb_load_t *load, yb_index_t re
  * But between 1/8 and 7/8 of an interval, the mean rise outside; and by half of it where there is
  * no slope to go by. 0: there is no other height round about.
  */
-static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_index_t region, int32_t h)
+static int32_t rise_inside(const yb_load_t *load, int region, int32_t h)
 {
     surroundings_t round;
-    look_round(map, load, region, &round);
+    look_round(load, region, &round);
     if (round.sloping == 0) {
-        int32_t interval = rise_farther_out(map, load, h);
+        int32_t interval = rise_farther_out(load, h);
         return interval / 2 != 0 ? interval / 2 : interval;
     }
     int32_t interval = (int32_t)(round.change / round.sloping);
@@ -119,110 +121,97 @@ static int32_t rise_inside(const yb_map_t *map, const yb_load_t *load, yb_index_
 
 /* --- Where ----------------------------------------------------------------------------------- */
 
-/* A place in the mesh: the middle of edge `edge` of triangle t; or, with `beyond`, half way from
- * there to the triangle's third corner.
+/* A place in the mesh: the middle of an edge; or, with `beyond`, half way from there to the third
+ * corner of the triangle.
  */
 typedef struct {
-    yb_triangle_t t;
-    int edge;
+    half_t half;
     bool beyond;
 } spot_t;
 
-/* Is the angle at corner i acute? Plan differences in 1/64 steps are below 2^14: each product below
- * 2^28.
- */
-static bool is_acute(const yb_map_t *map, yb_triangle_t t, int i)
+/* Is the angle at the apex acute? */
+static bool is_acute(const yb_load_t *load, half_t e)
 {
-    const yb_vertex_t *a = &map->vertex[map->triangle[t][next3(i)]];
-    const yb_vertex_t *b = &map->vertex[map->triangle[t][prev3(i)]];
-    const yb_vertex_t *c = &map->vertex[map->triangle[t][i]];
-    return (fix_minus(a->x_q8, c->x_q8) >> 2) * (fix_minus(b->x_q8, c->x_q8) >> 2) +
-               (fix_minus(a->y_q8, c->y_q8) >> 2) * (fix_minus(b->y_q8, c->y_q8) >> 2) >
-           0;
+    return dot(load, apex_of(load, e), origin_of(load, e), end_of(load, e)) > 0;
 }
 
 /* The widest place of a region: the middle of the longest edge that no line runs along, for that is
  * the chord of an empty circle. If just one of the two triangles at it is acute, the circle's
  * centre lies in that one, and so does the place. A region of one triangle has its place inside.
  */
-static spot_t widest_place(const yb_map_t *map, const yb_load_t *load, yb_index_t region)
+static spot_t widest_place(const yb_load_t *load, int region)
 {
     spot_t spot = {.beyond = true};
     uint32_t best = 0;
     int32_t widest = -1;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3 && load->region[t] == region; i++) {
-            bool alone = entry_of(load, t, i) >= NO_TRIANGLE;
-            if (alone && !spot.beyond)
-                continue; /* there is a better kind of edge */
-            uint32_t key = mesh_edge_key(map, t, i);
-            int32_t wide = edge_length(map, map->triangle[t][i], map->triangle[t][next3(i)]);
-            if (alone != spot.beyond || wide > widest || (wide == widest && key < best)) {
-                spot = (spot_t){t, i, alone};
-                best = key;
-                widest = wide;
-            }
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
+        if (region_of(load, e) != region)
+            continue;
+        bool alone = entry_of(load, e) >= NO_TRIANGLE;
+        if (alone && !spot.beyond)
+            continue; /* there is a better kind of edge */
+        uint32_t key = edge_key(load, e);
+        int32_t wide = half_length(load, e);
+        if (alone != spot.beyond || wide > widest || (wide == widest && key < best)) {
+            spot = (spot_t){e, alone};
+            best = key;
+            widest = wide;
         }
     }
     if (spot.beyond)
         return spot;
-    int apex = 0;
-    yb_triangle_t u = across(map, load, spot.t, spot.edge, &apex);
-    bool here = is_acute(map, spot.t, prev3(spot.edge));
-    bool there = is_acute(map, u, apex);
-    if (there && !here)
-        spot = (spot_t){u, next3(apex), true};
-    else if (here && !there)
-        spot.beyond = true;
+    half_t twin = twin_of(load, spot.half);
+    bool here = is_acute(load, spot.half);
+    spot.beyond = here != is_acute(load, twin);
+    if (spot.beyond && !here)
+        spot.half = twin;
     return spot;
 }
 
-static yb_status_t add_summit(yb_map_t *map, yb_load_t *load, const spot_t *spot, int32_t z)
+static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
 {
-    const yb_index_t *v = map->triangle[spot->t];
-    const yb_vertex_t *a = &map->vertex[v[spot->edge]];
-    const yb_vertex_t *b = &map->vertex[v[next3(spot->edge)]];
-    const yb_vertex_t *c = &map->vertex[v[prev3(spot->edge)]];
-    uint16_t x = fix_middle(a->x_q8, b->x_q8);
-    uint16_t y = fix_middle(a->y_q8, b->y_q8);
+    half_t e = spot->half;
+    yb_index_t p = (yb_index_t)load->map->vertex_count;
+    yb_vertex_t summit;
+    find_middle(load, e, &summit);
+    summit.z_q8 = z;
     if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
-        x = fix_middle(x, c->x_q8);
-        y = fix_middle(y, c->y_q8);
+        const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
+        summit.x_q8 = fix_middle(summit.x_q8, c->x_q8);
+        summit.y_q8 = fix_middle(summit.y_q8, c->y_q8);
+        e = place_inside(e);
     }
-    yb_index_t p = (yb_index_t)map->vertex_count;
-    if (mesh_add_vertex(map, load, x, y, z) != YB_OK)
+    if (mesh_insert(load, e, &summit) != YB_OK)
         return YB_ERR_LIMIT;
-    mesh_split(map, load, spot->t, spot->beyond ? -1 : spot->edge, p);
-    mesh_legalise(map, load, p);
+    mesh_legalise(load, p);
     yb_index_t region = load->region[load->star[p]];
     load->contour[load->contour_count + load->summit_count++] =
         (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
     return YB_OK;
 }
 
-yb_status_t summits_add(yb_map_t *map, yb_load_t *load)
+yb_status_t summits_add(yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
         load->ground[r] = FLAT;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        if (!is_flat(map, t))
-            load->ground[load->region[t]] = 0;
+    for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
+        if (height_at(load, origin_of(load, e)) != height_at(load, end_of(load, e)))
+            load->ground[region_of(load, e)] = 0;
     }
     /* A region may have to wait until its neighbour has a second height: round and round until
      * nothing changes. What stays flat then is a map of one height. */
     for (bool changed = true; changed;) {
         changed = false;
         for (int c = 0; c < 2 * load->contour_count; c++) {
-            const yb_contour_t *contour = &load->contour[c >> 1];
-            yb_index_t region = (c & 1) == 0 ? contour->left : contour->right;
+            int region = region_beside(load, c);
             if ((load->ground[region] & FLAT) == 0 || !look_beside(load, region))
                 continue;
-            int32_t h = map->vertex[contour->first].z_q8;
-            spot_t spot = widest_place(map, load, region);
-            int32_t rise = rise_inside(map, load, region, h);
+            int32_t h = height_at(load, load->contour[c >> 1].first);
+            spot_t spot = widest_place(load, region);
+            int32_t rise = rise_inside(load, region, h);
             if (fix_abs(h + rise) > YB_MAX_HEIGHT_Q8)
                 rise = -rise;
-            if (add_summit(map, load, &spot, h + rise) != YB_OK)
+            if (add_summit(load, &spot, h + rise) != YB_OK)
                 return YB_ERR_LIMIT;
             load->ground[region] = 0;
             changed = true;

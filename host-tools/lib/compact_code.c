@@ -235,7 +235,7 @@ static yb_ring_t inward(const yb_contour_set_t *set, int x, int y)
     int east = columns_of(set);
     int north = rows_of(set);
     int place = way < east ? 2 : way < east + north ? 4 : way < 2 * east + north ? 6 : 0;
-    return (yb_ring_t){1, (int16_t)place};
+    return (yb_ring_t){1, place};
 }
 
 static void put_step(coder_t *coder, pen_t *pen, int dx, int dy)

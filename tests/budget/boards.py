@@ -67,6 +67,19 @@ def section_sizes(path):
     return sizes
 
 
+def member_sizes(archive):
+    """{file: {section: bytes}} of an archive; border.c.obj is "border"."""
+    files = {}
+    sizes = {}
+    for line in tool("arm-none-eabi-size", "-A", archive).splitlines():
+        fields = line.split()
+        if "(ex" in fields:
+            sizes = files[fields[0].split(".")[0]] = {}
+        elif len(fields) == 3 and fields[0].startswith("."):
+            sizes[fields[0]] = sizes.get(fields[0], 0) + int(fields[1])
+    return files
+
+
 class Run:
     """One run of the bench firmware: regions (instructions), sizes and stack (bytes), by name."""
 

@@ -51,11 +51,11 @@ yb_status_t map_triangulate(yb_map_t *map, yb_load_t *load, const plan_t *plan)
 {
     map_set(map, load, plan);
     map->vertex_count = load->point_count;
-    yb_status_t status = border_close(map, load);
+    yb_status_t status = border_close(load);
     if (status == YB_OK)
-        status = mesh_triangulate(map, load);
+        status = mesh_triangulate(load);
     if (status == YB_OK)
-        status = regions_find(map, load);
+        status = regions_find(load);
     return status;
 }
 
@@ -64,10 +64,10 @@ yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan)
     yb_status_t status = map_triangulate(map, load, plan);
     load->first_summit = map->vertex_count;
     if (status == YB_OK)
-        status = summits_add(map, load);
+        status = summits_add(load);
     load->first_saddle = map->vertex_count;
     if (status == YB_OK)
-        status = links_add(map, load);
+        status = links_add(load);
     load->first_skeleton = map->vertex_count;
     return status;
 }

@@ -417,7 +417,7 @@ static void rings_and_steps_are_inverse(void **state)
     }
     for (int n = 1; n <= 255; n++) { /* neighbours in number are neighbours in place */
         int x, y;
-        ring_step((yb_ring_t){(int16_t)n, (int16_t)(8 * n - 1)}, &x, &y);
+        ring_step((yb_ring_t){n, 8 * n - 1}, &x, &y);
         for (int place = 0; place < 8 * n; place++) {
             int dx, dy;
             ring_step((yb_ring_t){(int16_t)n, (int16_t)place}, &dx, &dy);

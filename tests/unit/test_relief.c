@@ -273,7 +273,7 @@ static void noise_scales_follow_the_law(void **state)
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][next3(i)]];
-                bool inner = neighbour_of(&load, (uint16_t)t, i) != NO_TRIANGLE;
+                bool inner = twin_of(&load, 4 * t + i) != NO_HALF;
                 double length = hypot(b->x_q8 - a->x_q8, b->y_q8 - a->y_q8) / 256;
                 double weight = inner ? 0.5 : 1;
                 sum += weight * pow(b->z_q8 - a->z_q8, 2) / pow(length, 2 * h);

@@ -125,11 +125,11 @@ static void shuffle(rng_t *rng)
         load.region[to] = (yb_index_t)region[had.region[t]];
         for (int i = 0; i < 3; i++) {
             int from = (i + turned[t]) % 3;
-            int across_it = neighbour_of(&had, (yb_triangle_t)t, from);
-            int mark = is_marked(&had, (yb_triangle_t)t, from) ? ENTRY_MARK : 0;
+            int across_it = entry_of(&had, 4 * t + from) & NO_TRIANGLE;
+            int mark = is_marked(&had, 4 * t + from) ? ENTRY_MARK : 0;
             int across_now = across_it == NO_TRIANGLE ? NO_TRIANGLE : place[across_it];
             map.triangle[to][i] = was.triangle[t][from];
-            set_entry(&load, (yb_triangle_t)to, i, (yb_entry_t)(across_now | mark));
+            set_entry(&load, 4 * to + i, across_now | mark);
         }
     }
     for (int v = 0; v < map.vertex_count; v++)
@@ -144,14 +144,14 @@ static void shuffle(rng_t *rng)
  */
 static bool apply_rules(rng_t *rng, bool shuffled, uint64_t hash[3])
 {
-    yb_status_t (*const stage[3])(yb_map_t *, yb_load_t *) = {summits_add, links_add, skeleton_add};
+    yb_status_t (*const stage[3])(yb_load_t *) = {summits_add, links_add, skeleton_add};
     for (int k = 0; k < 3; k++) {
         if (shuffled)
             shuffle(rng);
         *(k == 0   ? &load.first_summit
           : k == 1 ? &load.first_saddle
                    : &load.first_skeleton) = map.vertex_count;
-        if (stage[k](&map, &load) != YB_OK)
+        if (stage[k](&load) != YB_OK)
             return false;
         hash[k] = mesh_hash(&map);
     }

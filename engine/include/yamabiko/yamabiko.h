@@ -181,7 +181,7 @@ typedef struct {
  * ends, 0 … 8n - 1, counter-clockwise from the east. Private to the compact profile.
  */
 typedef struct {
-    int16_t length, place;
+    int length, place;
 } yb_ring_t;
 
 /* A point of a skeleton, as large as a contour. Private to loading. */
@@ -208,9 +208,9 @@ typedef struct {
     /* private: the decoder. Bytes first, then the smaller numbers: the shortest instructions of
      * small processors reach no farther. */
     uint8_t part, crc, section;
-    uint8_t state, element, classes, left;
+    uint8_t state, element, classes;
     uint8_t spacing, interval, columns, rows;
-    uint8_t sector, turn_context, length_context, corner_at;
+    uint8_t sector, turn_context, length_context, corner_at, gain;
     bool open, narrow;
     uint16_t at; /* how far the state has come; the element's model */
     uint16_t value, recent, lines, spots, run;
@@ -218,19 +218,27 @@ typedef struct {
     uint16_t vertices_promised;
     uint16_t section_at, section_size, size;
     yb_status_t result;
-    int16_t x, y, start_x, start_y, start_way, length, height;
-    yb_ring_t last; /* step */
-    uint32_t range, code, cell;
-    int32_t base;
-    uint8_t gain;
-    /* of the paper profile (paper.c) */
-    uint8_t flags;
-    uint8_t bits_held;
-    uint32_t bits;
-    uint8_t header[14];
+    yb_map_t *map; /* what is loaded */
+    union {
+        struct { /* compact.c */
+            uint32_t range, code, cell;
+            int32_t base;
+            int x, y, start_x, start_y, start_way, length, height;
+            yb_ring_t last; /* step */
+        };
+        struct { /* paper.c */
+            uint32_t bits, flags;
+            int bits_held;
+        };
+        struct {              /* links.c, saddles.c */
+            int32_t level_q8; /* of lines with passes between them, … */
+            int32_t other_q8; /* … and what those go down to */
+            int here;         /* the region whose rules are applied */
+        };
+    };
     /* private: what both find */
-    int32_t corner_height[4];
     int32_t frame_height;
+    int32_t corner_height[4];
     yb_index_t corner[4]; /* the frame's corners, counter-clockwise from the south-west */
     /* A contour has a vertex of its own with a number no smaller, and a skeleton's points come
      * after all others: contours and, from first_skeleton on, these points never want the same
@@ -251,7 +259,7 @@ typedef struct {
         struct {                               /* links.c, saddles.c */
             yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
             yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
-            yb_index_t group[YB_MAX_CONTOURS]; /* lines that are joined */
+            yb_index_t group[YB_MAX_CONTOURS]; /* of a peak, its line or one joined to that */
         };
         /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
         uint32_t way[YB_MAX_VERTICES];
@@ -281,8 +289,8 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
 /* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
- * Cost: a hundred-byte code takes about 1.9 M instructions on a Cortex-M3, 251 scattered summits
- * 3.3 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * Cost: a hundred-byte code takes about 2.2 M instructions on a Cortex-M3, 251 scattered summits
+ * 4.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);
