@@ -97,11 +97,8 @@ static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int
 bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
                     int32_t y)
 {
-    int32_t value[3];
-    for (int i = 0, k = shape->first; i < 3; i++, k = k == 2 ? 0 : k + 1)
-        value[i] = cut->value[k];
     cutter->cut = cut;
-    plane_start(&cutter->plane, shape->p, value, y);
+    plane_start(&cutter->plane, shape->p, &cut->value[shape->first], y);
     cutter->plane.at_q14 -= (uint32_t)cut->zero << 14;
     cutter->half = fix_max(fix_abs(cutter->plane.along_x), fix_abs(cutter->plane.along_y)) >> 1;
     cutter->half_interval = cut->interval << 13;

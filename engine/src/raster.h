@@ -19,7 +19,7 @@ typedef int64_t raster_area_t;
  * interval one side of it has another pixel value.
  */
 typedef struct {
-    int32_t value[3];
+    int32_t value[5]; /* the first two again behind the last: those from any corner on */
     int32_t zero;
     int32_t interval; /* 0: there is one line only */
     uint16_t below, above, line;

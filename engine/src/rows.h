@@ -96,9 +96,14 @@ static inline void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *ro
     const raster_cut_t *cut = cutter->cut;
     uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
     uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    const uint16_t below = in_row(raster, cut->below, y);
-    const uint16_t above = in_row(raster, cut->above, y);
-    const uint16_t line = in_row(raster, cut->line, y);
+    uint16_t below = cut->below;
+    uint16_t above = cut->above;
+    uint16_t line = cut->line;
+    if (raster->screen->format == YB_MONO) {
+        below = in_row(raster, below, y);
+        above = in_row(raster, above, y);
+        line = in_row(raster, line, y);
+    }
     for (; x < end; x++) {
         const uint16_t nearer = depth_of(near);
         if (nearer > depth[x]) {

@@ -187,6 +187,8 @@ static inline int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const 
     uint32_t y = (p[0]->place >> 16) + (p[1]->place >> 16) + (p[2]->place >> 16);
     int32_t light =
         shadow_light(shadow, (int32_t)((x >> 2) * 21845 >> 14), (int32_t)((y >> 2) * 21845 >> 14));
+    if (light == SHADOW_NONE)
+        return shade;
     return DARKEST + (((shade - DARKEST) * (64 + 3 * light) + 128) >> 8);
 }
 
@@ -247,6 +249,8 @@ static bool cut_values(const yb_point_t *const p[3], int32_t zero, raster_cut_t 
             return false;
         cut->value[i] = value;
     }
+    cut->value[3] = cut->value[0];
+    cut->value[4] = cut->value[1];
     return true;
 }
 

@@ -20,6 +20,10 @@ static inline uint32_t shadow_pair(const yb_shadow_t *shadow, int32_t cell, int3
            (uint32_t)(shadow->lit[next >> 3] >> (next & 7) & 1) << 1;
 }
 
+enum {
+    SHADOW_NONE = 64 /* all of the sun */
+};
+
 /* How much of the sun reaches a place, in 64ths: blended between the four nearest cells. Inline, as
  * every triangle of a frame with shadows asks; of most places, all four are alike.
  */
@@ -39,7 +43,7 @@ static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int3
     uint32_t south = shadow_pair(shadow, cell, to_east);
     uint32_t north = shadow_pair(shadow, cell + to_north, to_east);
     if (south == north && (south == 0 || south == 3))
-        return south == 0 ? 0 : 64;
+        return south == 0 ? 0 : SHADOW_NONE;
     int32_t east = x & 7;
     int32_t south_row = (int32_t)(south & 1) * (8 - east) + (int32_t)(south >> 1) * east;
     int32_t north_row = (int32_t)(north & 1) * (8 - east) + (int32_t)(north >> 1) * east;

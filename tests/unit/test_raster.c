@@ -406,6 +406,8 @@ static void lines_lie_where_they_should(void **state)
             p[i].near = (uint16_t)(rng_range(&rng, 100, 60000));
             cut.value[i] = rng_range(&rng, 20000, 45000);
         }
+        cut.value[3] = cut.value[0];
+        cut.value[4] = cut.value[1];
         if (-twice_area(&p[0], &p[1], &p[2]) < 20000)
             continue;
         if (round % 2 == 0)
