@@ -54,7 +54,8 @@ typedef struct {
 /* The side down from one corner to another at row y. It lies within 127 + 3 RASTER_WIDE_Q4 of the
  * base: below 2^31 with its 20 fractional bits.
  */
-static inline side_t side_of(const yb_spot_t *from, const yb_spot_t *to, int32_t base_q4, int32_t y)
+static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, int32_t base_q4,
+                                int32_t y)
 {
     const int32_t slope =
         rows_small_slope(to->x_q4 - (int32_t)from->x_q4, to->y_q4 - (int32_t)from->y_q4);
@@ -126,8 +127,8 @@ COPIED void draw_level(const raster_t *raster, const raster_shape_t *shape, uint
     const int32_t right_end = raster_pixel(c->y_q4);
     const int32_t base = a->x_q4 >> 7 << 3; /* whole bytes of pixels */
     const int32_t centre_q4 = base * 16 - 8;
-    side_t left = side_of(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
-    side_t right = side_of(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
+    side_t left = begin_side(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
+    side_t right = begin_side(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
     const size_t width = raster->screen->width;
     const size_t pitch = raster->band->pitch;
     uint16_t *depth = raster->band->depth + (size_t)(y - raster->first_row) * width;
@@ -151,9 +152,9 @@ COPIED void draw_level(const raster_t *raster, const raster_shape_t *shape, uint
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)
-            left = side_of(b, c, centre_q4, y);
+            left = begin_side(b, c, centre_q4, y);
         if (y == right_end)
-            right = side_of(c, b, centre_q4, y);
+            right = begin_side(c, b, centre_q4, y);
         if (cutter != NULL)
             cutter->plane.at_q14 += (uint32_t)cutter->plane.along_y;
     }
