@@ -97,10 +97,10 @@ static inline int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_
 static inline int32_t relief_rough(const yb_map_t *map, uint32_t middle, int class, int32_t dx,
                                    int32_t dy, int32_t rise)
 {
-    int32_t scale = map->noise[class];
-    if (!map->detail || scale == 0)
+    if (!map->detail)
         return 0;
     /* scale < 2^16, noise within 2^9: the product is within 2^25. */
+    int32_t scale = map->noise[class];
     int32_t noise = (scale * relief_noise(middle, map->seed) + (1 << (RELIEF_NOISE_SHIFT - 1))) >>
                     RELIEF_NOISE_SHIFT;
     /* Nearly always well within its limit: no edge of a class is shorter than twice the root of its
