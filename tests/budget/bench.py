@@ -24,7 +24,8 @@ Written by `scripts/bench --page docs/BENCHMARKS.md`, not by hand. Instructions 
 of QEMU: exact and repeatable, but instructions, not cycles. "Most" is the budget in
 [tests/budget/budgets.tsv](../tests/budget/budgets.tsv), where there is one; **bold** is above it.
 Frames are drawn on eight maps of the gallery (`boards.py`); the standard views are four orbits, two from the summit
-and two on foot. Fidelity is of codes made from the development windows, beside what ideal coders reach
+and two on foot. `128x64-12k` and `320x240-32k` are all of it in so many KB, bands as tall as the map leaves
+memory for; `rows8` are bands of 8 rows whatever the map. Fidelity is of codes made from the development windows, beside what ideal coders reach
 that have no header (`tests/budget/group_fidelity.py` says more). Codes of 60 and 100 bytes are made at the
 usual effort 5, those of 200 and 400 bytes at effort 3, with a ninth of its trials: more effort is worth more.
 
