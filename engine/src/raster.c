@@ -73,28 +73,30 @@ static inline int32_t crossing_of(const side_t *side)
 static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, int32_t x,
                             int32_t end, uint16_t near, uint16_t pixel)
 {
+    uint16_t *const depth_end = depth + end;
+    depth += x;
     if (format == YB_GREY4) {
-        for (; x < end; x++) {
-            if (near > depth[x]) {
+        for (; depth < depth_end; depth++, x++) {
+            if (near > *depth) {
                 uint8_t *at = &row[x >> 1];
-                depth[x] = near;
+                *depth = near;
                 *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
             }
         }
     } else if (format == YB_RGB565) {
-        for (; x < end; x++) {
-            if (near > depth[x]) {
-                depth[x] = near;
-                row[2 * x] = (uint8_t)(pixel >> 8);
-                row[2 * x + 1] = (uint8_t)pixel;
+        for (row += 2 * x; depth < depth_end; depth++, row += 2) {
+            if (near > *depth) {
+                *depth = near;
+                row[0] = (uint8_t)(pixel >> 8);
+                row[1] = (uint8_t)pixel;
             }
         }
     } else {
-        for (; x < end; x++) {
-            if (near > depth[x]) {
+        for (; depth < depth_end; depth++, x++) {
+            if (near > *depth) {
                 const uint8_t bit = (uint8_t)(0x80 >> (x & 7));
                 uint8_t *at = &row[x >> 3];
-                depth[x] = near;
+                *depth = near;
                 *at = (uint8_t)((*at & ~bit) | (pixel & bit));
             }
         }
