@@ -57,21 +57,24 @@ static void begin_lines(yb_frame_t *frame, int32_t stray)
     frame->contour_inverse = ((uint32_t)1 << 20) / (uint32_t)interval;
 }
 
-static size_t aligned(size_t offset)
+/* The first place from an offset on where a frame may begin. */
+static size_t aligned(const yb_map_t *map, size_t offset)
 {
     const size_t to = _Alignof(yb_frame_t);
-    return (offset + to - 1) / to * to;
+    const size_t beyond = ((uintptr_t)map + offset) % to;
+    return beyond == 0 ? offset : offset + to - beyond;
 }
 
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band)
 {
     const size_t vertices = map->vertex_count;
-    const size_t at_frame = aligned(offsetof(yb_map_t, vertex) + vertices * sizeof(yb_vertex_t));
+    const size_t at_frame =
+        aligned(map, offsetof(yb_map_t, vertex) + vertices * sizeof(yb_vertex_t));
     const size_t at_band =
-        aligned(at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t));
+        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t));
     const size_t pitch = yb_screen_pitch(screen);
     const size_t row = screen->width * sizeof *band->depth + pitch;
-    if (bytes < at_band + row)
+    if (row == 0 || bytes < at_band + row)
         return NULL;
     const size_t fit = (bytes - at_band) / row;
     const size_t rows = fit < screen->height ? fit : screen->height;

@@ -280,8 +280,8 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     box_t box;
     spare_t spare;
     const bool seen = find_box(p, 3, &box);
-    /* Nothing of what the box's spare is for comes nearer by more than an eighth. */
-    const uint32_t near = seen ? (uint32_t)fix_min(box.near + (box.near >> 3) + 1, 65535) : 65535;
+    /* Nothing of what the box's spare is for comes nearer by more than an eighth: 8/7. */
+    const uint32_t near = seen ? (uint32_t)fix_min(box.near + box.near / 7 + 1, 65535) : 65535;
     int often;
     int32_t stray = stray_in_water(frame, p, whole_stray(frame, p, near, &often));
     if (seen && find_part_spare(frame, often, stray, box.near, &spare)) {
@@ -293,9 +293,13 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
             first = fix_clamp(box.top >> 4, 0, last);
             last = fix_clamp(box.bottom >> 4, 0, last);
         }
-    } else if (misses_planes(frame, whole, p, 3, stray)) {
-        first = last;
-        last = 0;
+    } else {
+        if (seen) /* some of it may come nearer than that */
+            stray = stray_in_water(frame, p, whole_stray(frame, p, 65535, &often));
+        if (misses_planes(frame, whole, p, 3, stray)) {
+            first = last;
+            last = 0;
+        }
     }
     frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
 }

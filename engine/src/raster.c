@@ -51,7 +51,7 @@ typedef struct {
     uint32_t at, step; /* it may wrap after the last row */
 } side_t;
 
-/* The side down from one corner to another at row y. It lies within 127 + 3 RASTER_WIDE_Q4 of the
+/* The side down from one corner to another at row y. It lies within 135 + 3 RASTER_WIDE_Q4 of the
  * base: below 2^31 with its 20 fractional bits.
  */
 static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, int32_t base_q4,
@@ -106,10 +106,10 @@ static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, i
 /* Where speed counts more than size, each format, and lines, has a copy of its own: branching on
  * that would be a seventh of what a triangle costs.
  */
-#ifdef __OPTIMIZE_SIZE__
-#define COPIED static
-#else
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define COPIED static inline __attribute__((always_inline))
+#else
+#define COPIED static
 #endif
 
 /* Draws a small triangle. */

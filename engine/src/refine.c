@@ -423,7 +423,7 @@ static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
 }
 
 /* Refines a base triangle and draws what it becomes. */
-static void draw_root(walk_t *walk, yb_triangle_t triangle)
+static void draw_root(const walk_t *walk, yb_triangle_t triangle)
 {
     yb_frame_t *frame = walk->frame;
     yb_level_t *top = frame->level;
@@ -456,7 +456,7 @@ static void draw_root(walk_t *walk, yb_triangle_t triangle)
 /* Those base triangles that may touch the rows from first up to end. One that is not on the screen
  * has its last bin before the first.
  */
-static void draw_roots(walk_t *walk, int32_t first_row, int32_t end_row)
+static void draw_roots(const walk_t *walk, int32_t first_row, int32_t end_row)
 {
     const yb_frame_t *frame = walk->frame;
     const int first_bin = (int)(first_row >> frame->row_shift);
@@ -471,12 +471,12 @@ static void draw_roots(walk_t *walk, int32_t first_row, int32_t end_row)
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
-    walk_t walk = {frame, view, raster};
+    const walk_t walk = {frame, view, raster};
     draw_roots(&walk, raster->first_row, raster->end_row);
 }
 
 void refine_count(yb_frame_t *frame, const refine_view_t *whole)
 {
-    walk_t walk = {frame, whole, NULL};
+    const walk_t walk = {frame, whole, NULL};
     draw_roots(&walk, 0, frame->screen.height);
 }

@@ -56,7 +56,12 @@ enum {
  */
 static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
 {
-    return dx * fix_inverse(dy);
+    /* The inverse is rounded down, so this is off by less than dx: what is left of dx goes round
+     * again. |dx| is at most 2 RASTER_WIDE_Q4 < 2^10, and all products are below 2^30. */
+    const int32_t inverse = fix_inverse(dy);
+    const int32_t slope = dx * inverse;
+    const int32_t left = dx * ((int32_t)1 << ROWS_FRACTION) - slope * dy;
+    return slope + (left * inverse >> ROWS_FRACTION);
 }
 
 /* --- Values ----------------------------------------------------------------------------------- */

@@ -93,7 +93,7 @@ uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_ban
     yb_frame_t *frame = yb_frame_place(
         &viewer->map, offsetof(yb_viewer_t, work) + sizeof viewer->work, &screen, &rows);
     uint32_t hash = FNV_START;
-    if (frame == NULL) /* a map of any size has room for eight rows */
+    if (frame == NULL) /* there is room for a row of any map */
         return hash;
     yb_frame_begin(frame, &viewer->map, &view, &screen);
     for (; rows.y < YB_VIEWER_HEIGHT; rows.y = (uint16_t)(rows.y + rows.rows)) {

@@ -20,7 +20,7 @@
 #define YB_VIEWER_HEIGHT 64
 #define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
 /* Memory for the rows that are drawn at once, beside what the map leaves: 320 bytes a row. More are
- * faster. A map of 100 bytes gets 13 to 17 of them in all.
+ * faster. With memory for eight, a map of 100 bytes gets 13 to 17 of them in all.
  */
 #define YB_VIEWER_ROW_BYTES (2 * YB_VIEWER_WIDTH + YB_VIEWER_PITCH)
 #ifndef YB_VIEWER_BAND_BYTES
@@ -62,8 +62,8 @@ typedef struct {
     uint8_t lit[YB_SHADOW_BYTES(YB_VIEWER_SHADOW_SIDE)];
 } yb_viewer_t;
 
-/* Takes some finished rows, from row y down, YB_VIEWER_PITCH bytes each; `pixels` is valid for the
- * call.
+/* Takes some finished rows, any number of them, from row y down, YB_VIEWER_PITCH bytes each;
+ * `pixels` is valid for the call.
  */
 typedef void (*yb_viewer_band_fn)(void *context, uint16_t y, uint16_t rows, const uint8_t *pixels);
 

@@ -2,7 +2,7 @@
 
 import boards
 
-# The band that each screen size is measured with.
+# The setting that each screen size is measured with.
 STANDARD = ("128x64-12k", "320x240-32k")
 STRUCTS = ("yb_map_t", "yb_load_t", "yb_frame_t")
 

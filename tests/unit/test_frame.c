@@ -101,7 +101,7 @@ static void one_piece_of_memory_is_enough(void **state)
         yb_map_t map;
         uint8_t byte[MOST + GUARD];
     } piece;
-    rng_t rng = {73};
+    rng_t rng = {173};
     int least = HEIGHT;
     for (int round = 0; round < 200; round++) {
         yb_view_t view;
@@ -139,6 +139,15 @@ static void one_piece_of_memory_is_enough(void **state)
         assert_int_equal(band.rows, 1);
     }
     print_message("bands of %d rows and more\n", least);
+    /* As much as is promised for any map, and nothing for a screen without pixels. */
+    piece.map.vertex_count = YB_MAX_VERTICES;
+    yb_band_t band;
+    const yb_screen_t screen = {128, 64, YB_GREY4};
+    const size_t promised = sizeof(yb_map_t) + sizeof(yb_frame_t) + 2 * sizeof(void *);
+    assert_non_null(yb_frame_place(&piece.map, promised + 320, &screen, &band));
+    assert_true(band.rows == 1);
+    const yb_screen_t none = {0, 0, YB_GREY4};
+    assert_null(yb_frame_place(&piece.map, sizeof piece, &none, &band));
 }
 
 static void a_band_leaves_the_rest_alone(void **state)

@@ -35,7 +35,7 @@ static void open_page(page_t *page, yb_format_t format, int y, int rows)
         raster_row(&page->raster, y + i, 0);
 }
 
-/* Draws a triangle; true if it shows its front and its box meets a pixel of the band. */
+/* Draws a triangle; true if it shows its front and lies between the sides of the band. */
 static bool draw(const raster_t *raster, const yb_spot_t corner[3], uint16_t pixel)
 {
     return raster_draw(raster, &corner[0], &corner[1], &corner[2], pixel) != RASTER_NOTHING;
@@ -121,6 +121,7 @@ static void random_mesh(mesh_t *mesh, rng_t *rng, int splits)
 static void each_pixel_is_drawn_once(void **state)
 {
     (void)state;
+    static const yb_format_t formats[3] = {YB_RGB565, YB_GREY4, YB_MONO};
     rng_t rng = {41};
     for (int round = 0; round < 120; round++) {
         static mesh_t mesh;
@@ -129,16 +130,17 @@ static void each_pixel_is_drawn_once(void **state)
         static int count[WIDTH * HEIGHT];
         memset(count, 0, sizeof count);
         for (int t = 0; t < mesh.triangles; t++) {
-            open_page(&page, round % 2 == 0 ? YB_RGB565 : YB_GREY4, 0, HEIGHT);
+            open_page(&page, formats[round % 3], 0, HEIGHT);
             yb_spot_t corner[3];
             int first = rng_range(&rng, 0, 2);
             for (int i = 0; i < 3; i++)
                 corner[i] = mesh.point[mesh.triangle[t][(i + first) % 3]];
-            (void)draw(&page.raster, corner, 9);
+            const uint16_t full = round % 3 == 2 ? 1 : 15; /* a lit dot, where pixels are bits */
+            (void)draw(&page.raster, corner, 15);
             for (int i = 0; i < WIDTH * HEIGHT; i++) {
                 uint16_t pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
-                assert_true(pixel == 0 || pixel == 9);
-                count[i] += pixel == 9;
+                assert_true(pixel == 0 || pixel == full);
+                count[i] += pixel == full;
             }
             check_guards(&page);
         }
@@ -213,6 +215,77 @@ static void edges_through_centres(void **state)
         for (int x = 0; x < 6; x++)
             assert_int_equal(pixel_at(&page, x, y), x + y < 4 ? 7 : 0);
     }
+}
+
+/* Sides of all slopes through centres: a triangle with a whole number of pixels at two sides. */
+static void sides_through_centres(void **state)
+{
+    (void)state;
+    for (int wide = 1; wide < 15; wide++) {
+        for (int high = 1; high < 15; high++) {
+            const int x = 8 + 16 * wide;
+            const int y = 8 + 16 * high;
+            const yb_spot_t right[3] = {{x, 8, 9, 0}, {8, y, 9, 0}, {x, y, 9, 0}};
+            const yb_spot_t left[3] = {{8, 8, 9, 0}, {8, y, 9, 0}, {x, y, 9, 0}};
+            page_t page;
+            open_page(&page, YB_GREY4, 0, HEIGHT);
+            assert_true(draw(&page.raster, right, 7));
+            for (int i = 0; i <= wide; i++) /* from the slanted side on, up to the upright one */
+                for (int j = 0; j < high; j++)
+                    assert_int_equal(pixel_at(&page, i, j),
+                                     i < wide && (wide - i) * high <= j * wide ? 7 : 0);
+            open_page(&page, YB_GREY4, 0, HEIGHT);
+            assert_true(draw(&page.raster, left, 7));
+            for (int i = 0; i <= wide; i++) /* from the upright side up to the slanted one */
+                for (int j = 0; j < high; j++)
+                    assert_int_equal(pixel_at(&page, i, j), i * high < j * wide ? 7 : 0);
+        }
+    }
+}
+
+/* Small triangles are drawn in two ways: where they lie, and whether lines cross them, decides. */
+static void both_ways_are_the_same(void **state)
+{
+    (void)state;
+    static const yb_format_t formats[3] = {YB_RGB565, YB_GREY4, YB_MONO};
+    static uint8_t level[sizeof pixels];
+    static uint16_t level_depth[sizeof depth / sizeof *depth];
+    rng_t rng = {47};
+    int pairs = 0;
+    for (int round = 0; round < 20000; round++) {
+        const int size = 1 << rng_range(&rng, 3, 8);
+        const int x = rng_range(&rng, 0, WIDTH * 16);
+        const int y = rng_range(&rng, 0, HEIGHT * 16);
+        raster_cut_t cut = {.below = 3, .above = 3, .line = 14};
+        yb_spot_t p[3];
+        for (int i = 0; i < 3; i++) {
+            p[i].x_q4 = fix_clamp(x + rng_range(&rng, -size, size), 0, WIDTH * 16);
+            p[i].y_q4 = y + rng_range(&rng, -size, size);
+            p[i].near = (uint16_t)rng_range(&rng, 100, 60000);
+            cut.value[i] = rng_range(&rng, 20000, 45000);
+        }
+        cut.value[3] = cut.value[0];
+        cut.value[4] = cut.value[1];
+        cut.interval = round % 2 == 0 ? rng_range(&rng, 2000, 60000) : 0;
+        cut.zero = round % 2 == 0 ? 0 : 30000;
+        const raster_cut_t *lines = round % 4 < 2 ? &cut : NULL;
+        raster_shape_t shape;
+        if (raster_front(&p[0], &p[1], &p[2], &shape) != RASTER_SMALL)
+            continue;
+        page_t page;
+        const int rows = rng_range(&rng, 1, HEIGHT);
+        const int first = rng_range(&rng, 0, HEIGHT - rows);
+        open_page(&page, formats[round % 3], first, rows);
+        raster_level(&page.raster, &shape, 9, lines);
+        memcpy(level, pixels, sizeof pixels);
+        memcpy(level_depth, depth, sizeof depth);
+        open_page(&page, formats[round % 3], first, rows);
+        raster_plane(&page.raster, &shape, RASTER_SMALL, 9, lines);
+        assert_memory_equal(level, pixels, sizeof pixels);
+        assert_memory_equal(level_depth, depth, sizeof(uint16_t) * (size_t)(WIDTH * rows));
+        pairs++;
+    }
+    assert_true(pairs > 5000);
 }
 
 static void the_nearest_wins_in_any_order(void **state)
@@ -308,7 +381,7 @@ static void check_level(const yb_spot_t p[3])
         assert_true(depth[i] == 0 || abs(depth[i] - mean) <= 1);
 }
 
-/* Leaves of up to 16 pixels are drawn at the mean of their corners' depths, and cover little of the
+/* Small ones are drawn at the mean of their corners' depths, and cover little of the
  * depth. Larger ones that do: exact. Huge and steep ones: within 1/256 of all depth. Slivers may be
  * off, but not outside what their corners span.
  */
@@ -481,6 +554,8 @@ int main(void)
         cmocka_unit_test(bands_are_parts_of_the_whole),
         cmocka_unit_test(back_faces_and_flat_ones_draw_nothing),
         cmocka_unit_test(edges_through_centres),
+        cmocka_unit_test(sides_through_centres),
+        cmocka_unit_test(both_ways_are_the_same),
         cmocka_unit_test(the_nearest_wins_in_any_order),
         cmocka_unit_test(depth_is_a_plane),
         cmocka_unit_test(huge_triangles_fit),

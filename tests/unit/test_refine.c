@@ -220,8 +220,14 @@ static void bins_hold_their_triangles(void **state)
 {
     (void)state;
     rng_t rng = {63};
-    for (int round = 0; round < 100; round++) {
+    for (int round = 0; round < 150; round++) {
         begin_random_frame(&rng, round);
+        if (round % 3 == 0) { /* where refinement moves points farthest */
+            yb_view_t view = frame.view;
+            const yb_screen_t screen = frame.screen;
+            view.exaggerate_q8 = 2048;
+            yb_frame_begin(&frame, &map, &view, &screen);
+        }
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
             refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);

@@ -16,7 +16,7 @@
 #error "YB_MAX_VERTICES: 4 to 65535"
 #endif
 
-/* Longest side of a screen, in pixels. Up to 512 the edge functions of the rasteriser fit 32 bits;
+/* Longest side of a screen, in pixels. Up to 512 the areas of triangles fit 32 bits;
  * above they take 64, with the same pixels.
  */
 #ifndef YB_MAX_SIDE

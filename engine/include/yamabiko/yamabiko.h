@@ -17,7 +17,8 @@
  *   yb_map_t    the mesh: as long as the map is used              (4.9 KB with 255 vertices)
  *   yb_load_t   working memory of decoding: until YB_OK           (5.5 KB)
  *   yb_frame_t  working memory of drawing: one frame at a time    (4.0 KB)
- * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM.
+ * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM. What a map
+ * leaves of its own makes bands taller: yb_frame_place.
  *
  * Threads. Calls on different structs are independent; a loaded map is only read by the frames.
  *
@@ -460,7 +461,7 @@ typedef enum {
 } yb_format_t;
 
 typedef struct {
-    uint16_t width, height; /* pixels, at most YB_MAX_SIDE; width even for YB_GREY4 */
+    uint16_t width, height; /* pixels, 1 to YB_MAX_SIDE; width even for YB_GREY4 */
     yb_format_t format;
 } yb_screen_t;
 
@@ -484,7 +485,7 @@ typedef struct {
 /* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
 typedef struct {
     uint32_t refined;       /* triangles at the end of refinement */
-    uint32_t drawn;         /* of those, front-facing and on the screen */
+    uint32_t drawn;         /* of those, front-facing and in a row of the screen */
     uint32_t depth_limited; /* left unsplit for want of YB_MAX_LEVELS */
 } yb_stats_t;
 
@@ -577,9 +578,10 @@ typedef struct {
 /* One piece of memory for all: `bytes` bytes, a loaded map at the beginning. In what that does not
  * need this places a frame of it, and a band from the screen's top with as many rows as there is
  * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
- * 100 vertices leaves 2.8 KB. NULL: there is not room for one row, as sizeof(yb_map_t) +
- * sizeof(yb_frame_t) and a row's depths and pixels always are. Both are the caller's until another
- * map is loaded here.
+ * 100 vertices leaves 2.8 KB. The caller may lower band->rows, to a multiple of what a panel wants,
+ * say. The frame is shorter than its type: it is not to be copied. NULL: there is not room for one
+ * row, as there always is in sizeof(yb_map_t) + sizeof(yb_frame_t), two pointers, and a row's
+ * depths and pixels. Frame and band are the caller's until another map is loaded here.
  */
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band);
 

@@ -4,6 +4,6 @@ target_link_libraries(yamabiko-lm3s6965evb PRIVATE yamabiko::panels)
 # Half the screen or more at a time: one half is drawn while the other is on the wires.
 target_compile_definitions(yb_app PUBLIC YB_VIEWER_BAND_BYTES=10240)
 
-# 64 KB of RAM hold a full-height band of 128 x 64 beside the engine's structs.
+# 64 KB of RAM hold 18 rows of 320 x 240 beside the engine's structs, and all of 128 x 64.
 yb_bench(23040)
 yb_golden(12 LARGE ${few})
