@@ -15,19 +15,13 @@ enum {
 
 /* --- Views ------------------------------------------------------------------------------------ */
 
-/* a * b >> shift: the product may have 63 bits. */
-static int32_t product(int32_t a, int32_t b, int shift)
-{
-    return (int32_t)(((int64_t)a * b) >> shift);
-}
-
 /* So far towards an azimuth and an elevation: to the east, to the north and up. */
 static void find_way(uint16_t azimuth_bam, uint16_t elevation_bam, int32_t length, int32_t way[3])
 {
-    int32_t flat = product(length, yb_cos_q14(elevation_bam), 14);
-    way[0] = product(flat, yb_sin_q14(azimuth_bam), 14);
-    way[1] = product(flat, yb_cos_q14(azimuth_bam), 14);
-    way[2] = product(length, yb_sin_q14(elevation_bam), 14);
+    int32_t flat = fix_product(length, yb_cos_q14(elevation_bam), 14);
+    way[0] = fix_product(flat, yb_sin_q14(azimuth_bam), 14);
+    way[1] = fix_product(flat, yb_cos_q14(azimuth_bam), 14);
+    way[2] = fix_product(length, yb_sin_q14(elevation_bam), 14);
 }
 
 static void clamp_place(int32_t place_q8[3])
@@ -52,7 +46,7 @@ void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
     find_way(azimuth_bam, elevation_bam, (int32_t)(width * distance_q8 >> 8), way);
     view->look_q8[0] = map->east_q8 >> 1;
     view->look_q8[1] = map->north_q8 >> 1;
-    view->look_q8[2] = product(map->low_q8 + map->high_q8, view->exaggerate_q8, 9);
+    view->look_q8[2] = fix_product(map->low_q8 + map->high_q8, view->exaggerate_q8, 9);
     view->eye_q8[0] = view->look_q8[0] - way[0];
     view->eye_q8[1] = view->look_q8[1] - way[1];
     view->eye_q8[2] = view->look_q8[2] + way[2];
@@ -69,7 +63,7 @@ void yb_view_fly(yb_view_t *view, const yb_map_t *map, const int32_t eye_q8[3],
     /* As unsigned numbers, what is below zero is far beyond the map's other sides. */
     if ((uint32_t)eye[0] <= map->east_q8 && (uint32_t)eye[1] <= map->north_q8) {
         int32_t floor = yb_map_height(map, (uint16_t)eye[0], (uint16_t)eye[1]);
-        floor = product(fix_max(floor, view->water_q8), view->exaggerate_q8, 8);
+        floor = fix_product(fix_max(floor, view->water_q8), view->exaggerate_q8, 8);
         clearance_q8 = fix_clamp(clearance_q8, 0, FAR_Q8);
         eye[2] = fix_max(eye[2], fix_min(floor, FAR_Q8) + clearance_q8);
     }
@@ -195,7 +189,7 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
         camera_view(frame, relief_place(v), v->z_q8, &at);
         nearest = fix_min(nearest, at.depth);
     }
-    nearest -= product(stray, bend, 14 + frame->eye_shift) + 2;
+    nearest -= fix_product(stray, bend, 14 + frame->eye_shift) + 2;
     frame->near = fix_max(nearest, fix_max(NEAREST_Q8 >> frame->eye_shift, LEAST_NEAR));
     int shift = fix_log2_floor((uint32_t)frame->near) - 14;
     frame->near_shift = shift;
@@ -215,31 +209,31 @@ static uint32_t share(uint64_t a, uint32_t b, uint32_t most)
  */
 static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
 {
-    /* 17 bits, as bend. */
-    uint32_t lift = ((uint32_t)frame->up_z * frame->view.exaggerate_q8) >> 8;
     frame->most_bend = bend > 0 ? (int32_t)share(whole << 8, bend, MOST_BEND) : MOST_BEND;
-    /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
-    uint64_t up = (uint64_t)lift * (uint32_t)frame->focal_q4;
-    uint64_t x = (uint64_t)bend * (frame->screen.width * (uint32_t)24) * 8 / 7;
-    uint64_t y = (up + (uint64_t)bend * (frame->screen.height * (uint32_t)24)) * 8 / 7;
     /* From 36 bits or more to just 32. */
     int shift = 20;
     for (whole <<= 14; whole >> 32 != 0; whole >>= 1)
         shift++;
-    /* 34 bits and 20 more, less the 31 of `whole`. */
     const uint32_t least = (uint32_t)whole;
-    uint32_t part = share(up << 20, least, UINT32_MAX);
-    uint32_t part_x = share((x << 20) + least - 1, least, UINT32_MAX);
-    uint32_t part_y = share((y << 20) + least - 1, least, UINT32_MAX);
-    for (; shift > 41 || part >= 2047 || part_x >= 2047 || part_y >= 2047; shift--) {
-        part >>= 1;
-        part_x = (part_x + 1) >> 1;
-        part_y = (part_y + 1) >> 1;
+    uint32_t lift = ((uint32_t)frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits, as bend */
+    const uint64_t up = (uint64_t)lift * (uint32_t)frame->focal_q4;
+    const uint32_t side[2] = {frame->screen.width, frame->screen.height};
+    uint32_t sway[2];
+    for (int i = 0; i < 2; i++) {
+        /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
+        uint64_t way = ((uint64_t)bend * (side[i] * 24) + (i > 0 ? up : 0)) * 8 / 7;
+        /* 34 bits and 20 more, less the 31 of `least`. */
+        sway[i] = (uint32_t)(((way << 20) + least - 1) / least);
     }
-    frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
-    frame->lift = (int16_t)part;
-    frame->sway_x_q4 = (int32_t)part_x;
-    frame->sway_y_q4 = (int32_t)part_y;
+    uint32_t rise = (uint32_t)((up << 20) / least);
+    for (; shift > 41 || rise >= 2047 || sway[0] >= 2047 || sway[1] >= 2047; shift--) {
+        rise >>= 1;
+        sway[0] = (sway[0] + 1) >> 1;
+        sway[1] = (sway[1] + 1) >> 1;
+    }
+    frame->lift = (int16_t)rise;
+    frame->sway_x_q4 = (int32_t)sway[0];
+    frame->sway_y_q4 = (int32_t)sway[1];
     frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
 }
 
@@ -277,6 +271,7 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     find_near(frame, stray, bend);
     /* 1/depth times depth, in q8: 40 bits. */
     uint64_t whole = (uint64_t)65535 * (uint32_t)frame->near << frame->eye_shift;
+    frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
     find_lift(frame, whole, (uint32_t)bend);
     find_lengths(frame, whole);
     for (int i = 0; i < frame->map->vertex_count; i++) {
@@ -318,13 +313,6 @@ static int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
     return fix_clamp(ratio, 1, 65535);
 }
 
-int32_t camera_near(const yb_frame_t *frame, int32_t depth)
-{
-    int shift;
-    int32_t inverse = inverse_of(depth, &shift);
-    return near_ratio(frame, inverse, shift);
-}
-
 /* Where a place is seen from the upper left corner, 1/16 pixel, and its 1/depth. right and up are
  * at most 2 depth and some units, which are a 32nd of the least depth: x is within 1.05 * 2^15, and
  * times MOST_FOCAL_Q4 below 2^31.
@@ -339,6 +327,14 @@ static inline int32_t project(const yb_frame_t *frame, const camera_point_t *fro
     *x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
     *y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
     return near_ratio(frame, inverse, shift);
+}
+
+int32_t camera_near(const yb_frame_t *frame, int32_t depth)
+{
+    const camera_point_t ahead = {.depth = depth};
+    int32_t x_q4;
+    int32_t y_q4;
+    return project(frame, &ahead, &x_q4, &y_q4);
 }
 
 void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot)
