@@ -51,8 +51,7 @@ static void cut(const end_t *from, const end_t *to, corner_t *cut_at)
 {
     const camera_point_t *a = &from->corner.at;
     const camera_point_t *b = &to->corner.at;
-    int32_t part_q20 =
-        (int32_t)(from->inside * ((int32_t)1 << 20) / (from->inside - to->inside));
+    int32_t part_q20 = (int32_t)(from->inside * ((int32_t)1 << 20) / (from->inside - to->inside));
     cut_at->at.right = a->right + fix_product(b->right - a->right, part_q20, 20);
     cut_at->at.up = a->up + fix_product(b->up - a->up, part_q20, 20);
     cut_at->at.depth = a->depth + fix_product(b->depth - a->depth, part_q20, 20);
@@ -66,12 +65,11 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
 {
     int count = polygon->count;
     corner_t *corner = polygon->corner;
-    const corner_t first = corner[0];
-    end_t p = {first, inside_of(frame, &first, plane)};
+    corner[count] = corner[0]; /* before the last plane too there is room for one more */
+    end_t p = {corner[0], inside_of(frame, &corner[0], plane)};
     polygon->count = 0;
     for (int i = 1; i <= count; i++) {
-        end_t q = {.corner = i < count ? corner[i] : first};
-        q.inside = inside_of(frame, &q.corner, plane);
+        end_t q = {corner[i], inside_of(frame, &corner[i], plane)};
         if (p.inside >= 0)
             corner[polygon->count++] = p.corner;
         if ((p.inside ^ q.inside) < 0) {
