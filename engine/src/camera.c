@@ -113,9 +113,18 @@ void camera_clamp(yb_frame_t *frame)
 
 /* --- The frame's constants -------------------------------------------------------------------- */
 
+/* How far a depth is shifted left by 10 and then right until it has 15 bits. It is LEAST_NEAR or
+ * more, or what clipping rounds that to: it has 6 bits or more.
+ */
+static inline int shift_of(int32_t depth)
+{
+    return fix_log2_floor((uint32_t)depth) - (14 - 10);
+}
+
+/* A depth, or another coordinate of up to 20 bits, shifted so. */
 static inline int32_t shifted(int32_t a, int shift)
 {
-    return shift >= 0 ? a >> shift : a * (1 << -shift);
+    return a * ((int32_t)1 << 10) >> shift;
 }
 
 /* Rows of R (paper, DIGEST 3), from the sines and cosines of the camera's elevation and of its
@@ -191,9 +200,8 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
     }
     nearest -= fix_product(stray, bend, 14 + frame->eye_shift) + 2;
     frame->near = fix_max(nearest, fix_max(NEAREST_Q8 >> frame->eye_shift, LEAST_NEAR));
-    int shift = fix_log2_floor((uint32_t)frame->near) - 14;
-    frame->near_shift = shift;
-    frame->near_scaled = shifted(frame->near, shift);
+    frame->near_shift = shift_of(frame->near);
+    frame->near_scaled = shifted(frame->near, frame->near_shift);
 }
 
 /* a / b, rounded down, but at most so much. */
@@ -299,20 +307,6 @@ void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera
     to->depth = (x * frame->depth_x + y * frame->depth_y + z * frame->depth_z) >> 14;
 }
 
-/* Depth as d * 2^shift with 2^14 <= d < 2^15, and 2^29 / d: above 2^14 and at most 2^15. */
-static int32_t inverse_of(int32_t depth, int *shift)
-{
-    *shift = fix_log2_floor((uint32_t)depth) - 14;
-    return fix_reciprocal(shifted(depth, *shift));
-}
-
-/* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
-static int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
-{
-    int32_t ratio = (frame->near_scaled * inverse) >> (13 + shift - frame->near_shift);
-    return fix_clamp(ratio, 1, 65535);
-}
-
 /* Where a place is seen from the upper left corner, 1/16 pixel, and its 1/depth. right and up are
  * at most 2 depth and some units, which are a 32nd of the least depth: x is within 1.05 * 2^15, and
  * times MOST_FOCAL_Q4 below 2^31.
@@ -320,13 +314,15 @@ static int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
 static inline int32_t project(const yb_frame_t *frame, const camera_point_t *from, int32_t *x_q4,
                               int32_t *y_q4)
 {
-    int shift;
-    int32_t inverse = inverse_of(from->depth, &shift);
-    int32_t x = (shifted(from->right, shift) * inverse) >> 15; /* Q14 */
+    int shift = shift_of(from->depth);
+    int32_t inverse = fix_reciprocal(shifted(from->depth, shift)); /* 2^14 to 2^15 */
+    int32_t x = (shifted(from->right, shift) * inverse) >> 15;     /* Q14 */
     int32_t y = (shifted(from->up, shift) * inverse) >> 15;
     *x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
     *y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
-    return near_ratio(frame, inverse, shift);
+    /* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
+    int32_t ratio = (frame->near_scaled * inverse) >> (13 + shift - frame->near_shift);
+    return fix_clamp(ratio, 1, 65535);
 }
 
 int32_t camera_near(const yb_frame_t *frame, int32_t depth)

@@ -551,8 +551,8 @@ typedef struct {
     yb_screen_t screen;
     const yb_map_t *map;
     int32_t near;        /* nothing nearer is drawn: view space, q8 >> eye_shift */
-    int32_t near_scaled; /* near as 15 bits … */
-    int32_t near_shift;  /* … times 2^near_shift */
+    int32_t near_scaled; /* near as 15 bits: shifted left by 10 … */
+    int32_t near_shift;  /* … and then right by so many */
     int32_t focal_q4;    /* pixels */
     /* From the map to the view: rows right, up and depth, Q14. Places are taken relative to the
      * eye and shifted right by eye_shift, which gives them 16 bits. */
