@@ -16,7 +16,7 @@ enum {
 /* --- Views ------------------------------------------------------------------------------------ */
 
 /* So far towards an azimuth and an elevation: to the east, to the north and up. */
-static void find_way(uint16_t azimuth_bam, uint16_t elevation_bam, int32_t length, int32_t way[3])
+static void aim(uint16_t azimuth_bam, uint16_t elevation_bam, int32_t length, int32_t way[3])
 {
     int32_t flat = fix_product(length, yb_cos_q14(elevation_bam), 14);
     way[0] = fix_product(flat, yb_sin_q14(azimuth_bam), 14);
@@ -33,7 +33,7 @@ static void clamp_place(int32_t place_q8[3])
 void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam)
 {
     int32_t way[3];
-    find_way(azimuth_bam, elevation_bam, (int32_t)1 << 14, way);
+    aim(azimuth_bam, elevation_bam, (int32_t)1 << 14, way);
     for (int i = 0; i < 3; i++)
         view->sun_q14[i] = (int16_t)way[i];
 }
@@ -43,7 +43,7 @@ void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
 {
     uint32_t width = (uint32_t)fix_max(map->east_q8, map->north_q8);
     int32_t way[3];
-    find_way(azimuth_bam, elevation_bam, (int32_t)(width * distance_q8 >> 8), way);
+    aim(azimuth_bam, elevation_bam, (int32_t)(width * distance_q8 >> 8), way);
     view->look_q8[0] = map->east_q8 >> 1;
     view->look_q8[1] = map->north_q8 >> 1;
     view->look_q8[2] = fix_product(map->low_q8 + map->high_q8, view->exaggerate_q8, 9);
@@ -68,7 +68,7 @@ void yb_view_fly(yb_view_t *view, const yb_map_t *map, const int32_t eye_q8[3],
         eye[2] = fix_max(eye[2], fix_min(floor, FAR_Q8) + clearance_q8);
     }
     int32_t way[3];
-    find_way(azimuth_bam, (uint16_t)tilt_bam, (int32_t)1 << 14, way);
+    aim(azimuth_bam, (uint16_t)tilt_bam, (int32_t)1 << 14, way);
     for (int i = 0; i < 3; i++)
         view->look_q8[i] = eye[i] + way[i];
     view->azimuth_bam = azimuth_bam;
@@ -307,6 +307,25 @@ void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera
     to->depth = (x * frame->depth_x + y * frame->depth_y + z * frame->depth_z) >> 14;
 }
 
+/* 2^29 over a depth that is shifted so: 2^14 to 2^15. */
+static inline int32_t inverse_of(int32_t depth, int shift)
+{
+    return fix_reciprocal(shifted(depth, shift));
+}
+
+/* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
+static inline int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
+{
+    int32_t ratio = (frame->near_scaled * inverse) >> (13 + shift - frame->near_shift);
+    return fix_clamp(ratio, 1, 65535);
+}
+
+int32_t camera_near(const yb_frame_t *frame, int32_t depth)
+{
+    int shift = shift_of(depth);
+    return near_ratio(frame, inverse_of(depth, shift), shift);
+}
+
 /* Where a place is seen from the upper left corner, 1/16 pixel, and its 1/depth. right and up are
  * at most 2 depth and some units, which are a 32nd of the least depth: x is within 1.05 * 2^15, and
  * times MOST_FOCAL_Q4 below 2^31.
@@ -315,22 +334,12 @@ static inline int32_t project(const yb_frame_t *frame, const camera_point_t *fro
                               int32_t *y_q4)
 {
     int shift = shift_of(from->depth);
-    int32_t inverse = fix_reciprocal(shifted(from->depth, shift)); /* 2^14 to 2^15 */
-    int32_t x = (shifted(from->right, shift) * inverse) >> 15;     /* Q14 */
+    int32_t inverse = inverse_of(from->depth, shift);
+    int32_t x = (shifted(from->right, shift) * inverse) >> 15; /* Q14 */
     int32_t y = (shifted(from->up, shift) * inverse) >> 15;
     *x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);
     *y_q4 = frame->screen.height * 8 - ((y * frame->focal_q4) >> 14);
-    /* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
-    int32_t ratio = (frame->near_scaled * inverse) >> (13 + shift - frame->near_shift);
-    return fix_clamp(ratio, 1, 65535);
-}
-
-int32_t camera_near(const yb_frame_t *frame, int32_t depth)
-{
-    const camera_point_t ahead = {.depth = depth};
-    int32_t x_q4;
-    int32_t y_q4;
-    return project(frame, &ahead, &x_q4, &y_q4);
+    return near_ratio(frame, inverse, shift);
 }
 
 void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot)
