@@ -15,7 +15,7 @@ enum {
 
 /* --- Views ------------------------------------------------------------------------------------ */
 
-/* So far towards an azimuth and an elevation: to the east, to the north and up. */
+/* So far, up to 2^24, towards an azimuth and an elevation: to the east, to the north and up. */
 static void aim(uint16_t azimuth_bam, uint16_t elevation_bam, int32_t length, int32_t way[3])
 {
     int32_t flat = fix_product(length, yb_cos_q14(elevation_bam), 14);
@@ -93,6 +93,8 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
     yb_view_orbit(view, map, 0, YB_DEGREES(30), 307);
 }
 
+/* --- View space ------------------------------------------------------------------------------- */
+
 /* Limits that make every product below fit; documented at yb_view_t. */
 void camera_clamp(yb_frame_t *frame)
 {
@@ -111,8 +113,6 @@ void camera_clamp(yb_frame_t *frame)
         view->water_q8 = fix_clamp(view->water_q8, -YB_MAX_HEIGHT_Q8, YB_MAX_HEIGHT_Q8);
 }
 
-/* --- The frame's constants -------------------------------------------------------------------- */
-
 /* How far a depth is shifted left by 10 and then right until it has 15 bits. It is LEAST_NEAR or
  * more, or what clipping rounds that to: it has 6 bits or more.
  */
@@ -127,13 +127,15 @@ static inline int32_t shifted(int32_t a, int shift)
     return a * ((int32_t)1 << 10) >> shift;
 }
 
+/* --- The frame's constants -------------------------------------------------------------------- */
+
 /* Rows of R (paper, DIGEST 3), from the sines and cosines of the camera's elevation and of its
- * azimuth b (the eye seen from look), Q14.
+ * azimuth β (paper: eye seen from look), Q14.
  */
 static void find_rows(yb_frame_t *frame)
 {
     const yb_view_t *view = &frame->view;
-    /* Differences are within 2^21; 7 more bits keep short ones exact. Squares: below 2^56 each. */
+    /* Differences are within 2^21; 7 more bits keep short vectors exact: squares below 2^58. */
     int32_t way_q15[3];
     int32_t length_q15[3];
     uint64_t square = 0;
@@ -144,7 +146,7 @@ static void find_rows(yb_frame_t *frame)
     }
     const int32_t flat = length_q15[1];
     const int32_t whole = length_q15[2];
-    /* Straight down (or up) any b would do: the picture's top is where the view's azimuth says. */
+    /* Straight down (or up) any β would do: the picture's top is where the view's azimuth says. */
     int32_t sin_b = -yb_cos_q14(view->azimuth_bam);
     int32_t cos_b = -yb_sin_q14(view->azimuth_bam);
     if (flat > 0) {
@@ -200,8 +202,9 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
     }
     nearest -= fix_product(stray, bend, 14 + frame->eye_shift) + 2;
     frame->near = fix_max(nearest, fix_max(NEAREST_Q8 >> frame->eye_shift, LEAST_NEAR));
-    frame->near_shift = shift_of(frame->near);
-    frame->near_scaled = shifted(frame->near, frame->near_shift);
+    const int shift = shift_of(frame->near);
+    frame->near_shift = shift;
+    frame->near_scaled = shifted(frame->near, shift);
 }
 
 /* a / b, rounded down, but at most so much. */
@@ -211,14 +214,15 @@ static uint32_t share(uint64_t a, uint32_t b, uint32_t most)
     return a < most ? (uint32_t)a : most;
 }
 
-/* What a change of height does on the screen. A point at depth d has 65535 near / d in its spot, so
+/* What a change of height does on the screen. `whole` is 1/depth times depth, in q8, and `bend`
+ * what a unit of height changes a depth, Q14. A point at depth d has 65535 near / d in its spot, so
  * r units of height times that are r / d times the constant 65535 near: a rise of r moves it up by
  * focal * lift * r / d, and changes its depth by bend * r.
  */
 static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
 {
     frame->most_bend = bend > 0 ? (int32_t)share(whole << 8, bend, MOST_BEND) : MOST_BEND;
-    /* From 36 bits or more to just 32. */
+    /* As 32 bits, the highest of them set: near is LEAST_NEAR or more, this has 36 or more. */
     int shift = 20;
     for (whole <<= 14; whole >> 32 != 0; whole >>= 1)
         shift++;
@@ -247,7 +251,8 @@ static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
 
 /* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees
  * above the ground on not at all, on foot to a quarter, for hills rise above their ground. There
- * triangles are wider too, so that they cover about as many pixels in every view.
+ * triangles are wider too, so that they cover about as many pixels in every view. `whole` as in
+ * find_lift.
  */
 static void find_lengths(yb_frame_t *frame, uint64_t whole)
 {
@@ -277,7 +282,7 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     find_shift(frame, stray);
     int32_t bend = (fix_abs(frame->depth_z) * view->exaggerate_q8) >> 8; /* 17 bits */
     find_near(frame, stray, bend);
-    /* 1/depth times depth, in q8: 40 bits. */
+    /* 40 bits: near has 17, and eye_shift is 7 at most. */
     uint64_t whole = (uint64_t)65535 * (uint32_t)frame->near << frame->eye_shift;
     frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
     find_lift(frame, whole, (uint32_t)bend);

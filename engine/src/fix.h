@@ -55,7 +55,7 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
     return dx > dy ? dx + (3 * dy >> 3) : dy + (3 * dx >> 3);
 }
 
-/* a * b >> shift, of a product of up to 63 bits; 0 <= shift < 63. */
+/* The low 32 bits of a * b >> shift, 0 <= shift < 63, rounded down. */
 int32_t fix_product(int32_t a, int32_t b, int shift);
 
 /* a * b / c, rounded towards zero; c is not 0 and the result fits. */

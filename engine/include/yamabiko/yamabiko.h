@@ -441,7 +441,7 @@ void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 /* Casts the shadows of a map as a view's sun (not its lamp), vertical scale and water make them:
  * once, for all frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free
  * afterwards. A point is in shadow if the surface, refined to four cells, hides the sun; frames
- * blend from cell to cell. Cost: 64 cells a side take about 2.6 M instructions on a Cortex-M3
+ * blend from cell to cell. Cost: 64 cells a side take about 2.3 M instructions on a Cortex-M3
  * (scripts/bench instructions) and 1 KB of stack.
  */
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work);
