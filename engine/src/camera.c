@@ -15,48 +15,62 @@ enum {
 
 /* --- Views ------------------------------------------------------------------------------------ */
 
+/* So far, up to 2^24, towards an azimuth and an elevation: to the east, to the north and up. */
+static void aim(uint16_t azimuth_bam, uint16_t elevation_bam, int32_t length, int32_t way[3])
+{
+    int32_t flat = fix_product(length, yb_cos_q14(elevation_bam), 14);
+    way[0] = fix_product(flat, yb_sin_q14(azimuth_bam), 14);
+    way[1] = fix_product(flat, yb_cos_q14(azimuth_bam), 14);
+    way[2] = fix_product(length, yb_sin_q14(elevation_bam), 14);
+}
+
+static void clamp_place(int32_t place_q8[3])
+{
+    for (int i = 0; i < 3; i++)
+        place_q8[i] = fix_clamp(place_q8[i], -FAR_Q8, FAR_Q8);
+}
+
 void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam)
 {
-    int32_t flat = yb_cos_q14(elevation_bam);
-    view->sun_q14[0] = (int16_t)((flat * yb_sin_q14(azimuth_bam)) >> 14);
-    view->sun_q14[1] = (int16_t)((flat * yb_cos_q14(azimuth_bam)) >> 14);
-    view->sun_q14[2] = yb_sin_q14(elevation_bam);
+    int32_t way[3];
+    aim(azimuth_bam, elevation_bam, (int32_t)1 << 14, way);
+    for (int i = 0; i < 3; i++)
+        view->sun_q14[i] = (int16_t)way[i];
 }
 
 void yb_view_orbit(yb_view_t *view, const yb_map_t *map, uint16_t azimuth_bam,
                    uint16_t elevation_bam, uint16_t distance_q8)
 {
-    int32_t width = fix_max(map->east_q8, map->north_q8);
-    int32_t distance = (int32_t)(((int64_t)width * distance_q8) >> 8);
-    int32_t flat = (int32_t)(((int64_t)distance * yb_cos_q14(elevation_bam)) >> 14);
-    int64_t middle = ((int64_t)map->low_q8 + map->high_q8) * view->exaggerate_q8;
+    uint32_t width = (uint32_t)fix_max(map->east_q8, map->north_q8);
+    int32_t way[3];
+    aim(azimuth_bam, elevation_bam, (int32_t)(width * distance_q8 >> 8), way);
     view->look_q8[0] = map->east_q8 >> 1;
     view->look_q8[1] = map->north_q8 >> 1;
-    view->look_q8[2] = (int32_t)(middle >> 9);
-    view->eye_q8[0] = view->look_q8[0] - (int32_t)(((int64_t)flat * yb_sin_q14(azimuth_bam)) >> 14);
-    view->eye_q8[1] = view->look_q8[1] - (int32_t)(((int64_t)flat * yb_cos_q14(azimuth_bam)) >> 14);
-    view->eye_q8[2] =
-        view->look_q8[2] + (int32_t)(((int64_t)distance * yb_sin_q14(elevation_bam)) >> 14);
+    view->look_q8[2] = fix_product(map->low_q8 + map->high_q8, view->exaggerate_q8, 9);
+    view->eye_q8[0] = view->look_q8[0] - way[0];
+    view->eye_q8[1] = view->look_q8[1] - way[1];
+    view->eye_q8[2] = view->look_q8[2] + way[2];
     view->azimuth_bam = azimuth_bam;
 }
 
 void yb_view_fly(yb_view_t *view, const yb_map_t *map, const int32_t eye_q8[3],
                  int32_t clearance_q8, uint16_t azimuth_bam, int16_t tilt_bam)
 {
+    int32_t *eye = view->eye_q8;
     for (int i = 0; i < 3; i++)
-        view->eye_q8[i] = fix_clamp(eye_q8[i], -FAR_Q8, FAR_Q8);
-    int32_t x = view->eye_q8[0];
-    int32_t y = view->eye_q8[1];
-    if (x >= 0 && y >= 0 && x <= map->east_q8 && y <= map->north_q8) {
-        int32_t floor = fix_max(yb_map_height(map, (uint16_t)x, (uint16_t)y), view->water_q8);
-        floor = (int32_t)(((int64_t)floor * view->exaggerate_q8) >> 8);
+        eye[i] = eye_q8[i];
+    clamp_place(eye);
+    /* As unsigned numbers, what is below zero is far beyond the map's other sides. */
+    if ((uint32_t)eye[0] <= map->east_q8 && (uint32_t)eye[1] <= map->north_q8) {
+        int32_t floor = yb_map_height(map, (uint16_t)eye[0], (uint16_t)eye[1]);
+        floor = fix_product(fix_max(floor, view->water_q8), view->exaggerate_q8, 8);
         clearance_q8 = fix_clamp(clearance_q8, 0, FAR_Q8);
-        view->eye_q8[2] = fix_max(view->eye_q8[2], fix_min(floor, FAR_Q8) + clearance_q8);
+        eye[2] = fix_max(eye[2], fix_min(floor, FAR_Q8) + clearance_q8);
     }
-    int32_t flat = yb_cos_q14((uint16_t)tilt_bam);
-    view->look_q8[0] = view->eye_q8[0] + ((flat * yb_sin_q14(azimuth_bam)) >> 14);
-    view->look_q8[1] = view->eye_q8[1] + ((flat * yb_cos_q14(azimuth_bam)) >> 14);
-    view->look_q8[2] = view->eye_q8[2] + yb_sin_q14((uint16_t)tilt_bam);
+    int32_t way[3];
+    aim(azimuth_bam, (uint16_t)tilt_bam, (int32_t)1 << 14, way);
+    for (int i = 0; i < 3; i++)
+        view->look_q8[i] = eye[i] + way[i];
     view->azimuth_bam = azimuth_bam;
 }
 
@@ -81,44 +95,14 @@ void yb_view_init(yb_view_t *view, const yb_map_t *map)
 
 /* --- View space ------------------------------------------------------------------------------- */
 
-/* Sine and cosine of the camera's elevation and of its azimuth β (paper: eye seen from look). */
-typedef struct {
-    int32_t sin_a, cos_a, sin_b, cos_b; /* Q14 */
-} pose_t;
-
-static void find_pose(const yb_view_t *view, pose_t *pose)
-{
-    int64_t dx = (int64_t)view->eye_q8[0] - view->look_q8[0];
-    int64_t dy = (int64_t)view->eye_q8[1] - view->look_q8[1];
-    int64_t dz = (int64_t)view->eye_q8[2] - view->look_q8[2];
-    /* Differences are within 2^21; 8 more bits keep short vectors exact: squares below 2^59. */
-    uint64_t flat = fix_sqrt((uint64_t)(dx * dx + dy * dy) << 14);
-    uint64_t whole = fix_sqrt((uint64_t)(dx * dx + dy * dy + dz * dz) << 14);
-    /* Straight down (or up) any β would do: the picture's top is where the view's azimuth says. */
-    pose->sin_b = -yb_cos_q14(view->azimuth_bam);
-    pose->cos_b = -yb_sin_q14(view->azimuth_bam);
-    if (flat > 0) {
-        pose->sin_b = (int32_t)(dy * ((int32_t)1 << 21) / (int64_t)flat);
-        pose->cos_b = (int32_t)(dx * ((int32_t)1 << 21) / (int64_t)flat);
-    }
-    pose->sin_a = 0;
-    pose->cos_a = 1 << 14;
-    if (whole > 0) {
-        pose->sin_a = (int32_t)(dz * ((int32_t)1 << 21) / (int64_t)whole);
-        pose->cos_a = (int32_t)((int64_t)(flat << 14) / (int64_t)whole);
-    }
-}
-
 /* Limits that make every product below fit; documented at yb_view_t. */
 void camera_clamp(yb_frame_t *frame)
 {
     yb_view_t *view = &frame->view;
     const yb_screen_t *screen = &frame->screen;
-    for (int i = 0; i < 3; i++) {
-        view->eye_q8[i] = fix_clamp(view->eye_q8[i], -FAR_Q8, FAR_Q8);
-        view->look_q8[i] = fix_clamp(view->look_q8[i], -FAR_Q8, FAR_Q8);
-        view->lamp_q8[i] = fix_clamp(view->lamp_q8[i], -FAR_Q8, FAR_Q8);
-    }
+    clamp_place(view->eye_q8);
+    clamp_place(view->look_q8);
+    clamp_place(view->lamp_q8);
     /* The picture must stay within the pyramid of slope 2 that camera_project tests against. */
     int32_t least = LEAST_ZOOM_Q12;
     if (screen->height > screen->width)
@@ -129,37 +113,85 @@ void camera_clamp(yb_frame_t *frame)
         view->water_q8 = fix_clamp(view->water_q8, -YB_MAX_HEIGHT_Q8, YB_MAX_HEIGHT_Q8);
 }
 
+/* How far a depth is shifted left by 10 and then right until it has 15 bits. It is LEAST_NEAR or
+ * more, or what clipping rounds that to: it has 6 bits or more.
+ */
+static inline int shift_of(int32_t depth)
+{
+    return fix_log2_floor((uint32_t)depth) - (14 - 10);
+}
+
+/* A depth, or another coordinate of up to 20 bits, shifted so. */
+static inline int32_t shifted(int32_t a, int shift)
+{
+    return a * ((int32_t)1 << 10) >> shift;
+}
+
 /* --- The frame's constants -------------------------------------------------------------------- */
 
-/* Rows of R (paper, DIGEST 3), and how far places are shifted so that each coordinate has 16 bits:
- * the eye's distance from the farthest corner of the map's bounding box, heights with what
- * refinement, walls and water add. A row's product is then within sqrt(3) 2^16 2^14 < 2^31.
+/* Rows of R (paper, DIGEST 3), from the sines and cosines of the camera's elevation and of its
+ * azimuth β (paper: eye seen from look), Q14.
  */
-static void find_rows(yb_frame_t *frame, const pose_t *pose, int32_t stray)
+static void find_rows(yb_frame_t *frame)
 {
     const yb_view_t *view = &frame->view;
+    /* Differences are within 2^21; 7 more bits keep short vectors exact: squares below 2^58. */
+    int32_t way_q15[3];
+    int32_t length_q15[3];
+    uint64_t square = 0;
+    for (int i = 0; i < 3; i++) {
+        way_q15[i] = (view->eye_q8[i] - view->look_q8[i]) * 128;
+        square += (uint64_t)((int64_t)way_q15[i] * way_q15[i]);
+        length_q15[i] = (int32_t)fix_sqrt(square);
+    }
+    const int32_t flat = length_q15[1];
+    const int32_t whole = length_q15[2];
+    /* Straight down (or up) any β would do: the picture's top is where the view's azimuth says. */
+    int32_t sin_b = -yb_cos_q14(view->azimuth_bam);
+    int32_t cos_b = -yb_sin_q14(view->azimuth_bam);
+    if (flat > 0) {
+        sin_b = fix_scale(way_q15[1], (int32_t)1 << 14, flat);
+        cos_b = fix_scale(way_q15[0], (int32_t)1 << 14, flat);
+    }
+    int32_t sin_a = 0;
+    int32_t cos_a = 1 << 14;
+    if (whole > 0) {
+        sin_a = fix_scale(way_q15[2], (int32_t)1 << 14, whole);
+        cos_a = fix_scale(flat, (int32_t)1 << 14, whole);
+    }
+    frame->right_x = -sin_b;
+    frame->right_y = cos_b;
+    frame->up_x = -((sin_a * cos_b) >> 14);
+    frame->up_y = -((sin_a * sin_b) >> 14);
+    frame->up_z = cos_a;
+    frame->depth_x = -((cos_a * cos_b) >> 14);
+    frame->depth_y = -((cos_a * sin_b) >> 14);
+    frame->depth_z = -sin_a;
+}
+
+/* How far places are shifted so that each coordinate has 16 bits: the eye's distance from the
+ * farthest corner of the map's bounding box, heights with what refinement, walls and water add. A
+ * row's product is then within sqrt(3) 2^16 2^14 < 2^31.
+ */
+static void find_shift(yb_frame_t *frame, int32_t stray)
+{
+    const int32_t *eye = frame->view.eye_q8;
     const yb_map_t *map = frame->map;
-    frame->right_x = -pose->sin_b;
-    frame->right_y = pose->cos_b;
-    frame->up_x = -((pose->sin_a * pose->cos_b) >> 14);
-    frame->up_y = -((pose->sin_a * pose->sin_b) >> 14);
-    frame->up_z = pose->cos_a;
-    frame->depth_x = -((pose->cos_a * pose->cos_b) >> 14);
-    frame->depth_y = -((pose->cos_a * pose->sin_b) >> 14);
-    frame->depth_z = -pose->sin_a;
     /* Heights are below 2^19, times an exaggeration of 2^11. */
-    int32_t low = ((map->low_q8 - stray) * view->exaggerate_q8) >> 8;
-    int32_t high = ((map->high_q8 + stray) * view->exaggerate_q8) >> 8;
-    uint32_t all = (uint32_t)(fix_abs(view->eye_q8[0]) | fix_abs(map->east_q8 - view->eye_q8[0]) |
-                              fix_abs(view->eye_q8[1]) | fix_abs(map->north_q8 - view->eye_q8[1]) |
-                              fix_abs(low - view->eye_q8[2]) | fix_abs(high - view->eye_q8[2]));
+    int32_t low = ((map->low_q8 - stray) * frame->view.exaggerate_q8) >> 8;
+    int32_t high = ((map->high_q8 + stray) * frame->view.exaggerate_q8) >> 8;
+    uint32_t all = (uint32_t)(fix_abs(eye[0]) | fix_abs(map->east_q8 - eye[0]) | fix_abs(eye[1]) |
+                              fix_abs(map->north_q8 - eye[1]) | fix_abs(low - eye[2]) |
+                              fix_abs(high - eye[2]));
     frame->eye_shift = 0;
-    while (all >> frame->eye_shift >= (uint32_t)1 << 16)
+    for (; all >> 16 != 0; all >>= 1)
         frame->eye_shift++;
 }
 
-/* The frame's 16-bit depths are spread from the nearest thing on. */
-static void find_near(yb_frame_t *frame, int32_t stray)
+/* The frame's 16-bit depths are spread from the nearest thing on. A unit of height changes a depth
+ * by `bend`, Q14.
+ */
+static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
 {
     int32_t nearest = INT32_MAX;
     for (int i = 0; i < frame->map->vertex_count; i++) {
@@ -168,64 +200,69 @@ static void find_near(yb_frame_t *frame, int32_t stray)
         camera_view(frame, relief_place(v), v->z_q8, &at);
         nearest = fix_min(nearest, at.depth);
     }
-    int32_t lift = (fix_abs(frame->depth_z) * frame->view.exaggerate_q8) >> 8;
-    nearest -= (int32_t)(((int64_t)stray * lift) >> (14 + frame->eye_shift)) + 2;
+    nearest -= fix_product(stray, bend, 14 + frame->eye_shift) + 2;
     frame->near = fix_max(nearest, fix_max(NEAREST_Q8 >> frame->eye_shift, LEAST_NEAR));
-    int shift = fix_log2_floor((uint32_t)frame->near) - 14;
+    const int shift = shift_of(frame->near);
     frame->near_shift = shift;
-    frame->near_scaled = shift >= 0 ? frame->near >> shift : frame->near * (1 << -shift);
+    frame->near_scaled = shifted(frame->near, shift);
 }
 
-/* What a change of height does on the screen. A point at depth d has 65535 near / d in its spot, so
- * r units of height times that are r / d times the constant 65535 near: a rise of r moves it up by
- * focal * lift * r / d, and changes its depth by lift_z * r.
- */
-static void find_lift(yb_frame_t *frame)
+/* a / b, rounded down, but at most so much. */
+static uint32_t share(uint64_t a, uint32_t b, uint32_t most)
 {
-    int64_t lift = ((int64_t)frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits */
-    int64_t bend = ((int64_t)fix_abs(frame->depth_z) * frame->view.exaggerate_q8) >> 8;
-    uint64_t whole = (uint64_t)65535 * (uint32_t)frame->near << (14 + frame->eye_shift); /* 55 */
-    uint64_t most = bend > 0 ? whole / (uint64_t)(64 * bend) : INT32_MAX;
-    frame->most_bend = most < MOST_BEND ? (int32_t)most : MOST_BEND;
-    /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
-    int64_t wide = frame->screen.width * 24;
-    int64_t high = frame->screen.height * 24;
-    uint64_t up = (uint64_t)(frame->focal_q4 * lift);
-    uint64_t part[3] = {up, (uint64_t)(wide * bend) * 8 / 7,
-                        (up + (uint64_t)(high * bend)) * 8 / 7};
+    a /= b;
+    return a < most ? (uint32_t)a : most;
+}
+
+/* What a change of height does on the screen. `whole` is 1/depth times depth, in q8, and `bend`
+ * what a unit of height changes a depth, Q14. A point at depth d has 65535 near / d in its spot, so
+ * r units of height times that are r / d times the constant 65535 near: a rise of r moves it up by
+ * focal * lift * r / d, and changes its depth by bend * r.
+ */
+static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
+{
+    frame->most_bend = bend > 0 ? (int32_t)share(whole << 8, bend, MOST_BEND) : MOST_BEND;
+    /* As 32 bits, the highest of them set: near is LEAST_NEAR or more, this has 36 or more. */
     int shift = 20;
-    while (whole >> 32 != 0) {
-        whole >>= 1;
+    for (whole <<= 14; whole >> 32 != 0; whole >>= 1)
         shift++;
+    const uint32_t least = (uint32_t)whole;
+    uint32_t lift = ((uint32_t)frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits, as bend */
+    const uint64_t up = (uint64_t)lift * (uint32_t)frame->focal_q4;
+    const uint32_t side[2] = {frame->screen.width, frame->screen.height};
+    uint32_t sway[2];
+    for (int i = 0; i < 2; i++) {
+        /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
+        uint64_t way = ((uint64_t)bend * (side[i] * 24) + (i > 0 ? up : 0)) * 8 / 7;
+        /* 34 bits and 20 more, less the 31 of `least`. */
+        sway[i] = (uint32_t)(((way << 20) + least - 1) / least);
     }
-    for (int i = 0; i < 3; i++) /* 35 bits and 20 more */
-        part[i] = ((part[i] << 20) + (i > 0 ? whole - 1 : 0)) / whole;
-    while (shift > 41 || part[0] >= 2047 || part[1] >= 2047 || part[2] >= 2047) {
-        part[0] >>= 1;
-        part[1] = (part[1] + 1) >> 1;
-        part[2] = (part[2] + 1) >> 1;
-        shift--;
+    uint32_t rise = (uint32_t)((up << 20) / least);
+    for (; shift > 41 || rise >= 2047 || sway[0] >= 2047 || sway[1] >= 2047; shift--) {
+        rise >>= 1;
+        sway[0] = (sway[0] + 1) >> 1;
+        sway[1] = (sway[1] + 1) >> 1;
     }
-    frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
-    frame->lift = (int16_t)part[0];
-    frame->sway_x_q4 = (int32_t)part[1];
-    frame->sway_y_q4 = (int32_t)part[2];
+    frame->lift = (int16_t)rise;
+    frame->sway_x_q4 = (int32_t)sway[0];
+    frame->sway_y_q4 = (int32_t)sway[1];
     frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
 }
 
 /* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees
  * above the ground on not at all, on foot to a quarter, for hills rise above their ground. There
- * triangles are wider too, so that they cover about as many pixels in every view.
+ * triangles are wider too, so that they cover about as many pixels in every view. `whole` as in
+ * find_lift.
  */
-static void find_lengths(yb_frame_t *frame, const pose_t *pose)
+static void find_lengths(yb_frame_t *frame, uint64_t whole)
 {
-    int32_t steep = fix_clamp(2 * fix_abs(pose->sin_a), 1 << 12, 1 << 14);
+    int32_t steep = fix_clamp(2 * fix_abs(frame->depth_z), 1 << 12, 1 << 14);
     int32_t wide = (steep + (1 << 14)) >> 1;
     int32_t high = (steep * wide) >> 14;
-    frame->along_x = (pose->cos_b * high) >> 15;
-    frame->along_y = (pose->sin_b * high) >> 15;
-    frame->across_x = (-pose->sin_b * wide) >> 15;
-    frame->across_y = (pose->cos_b * wide) >> 15;
+    frame->along_x = (frame->right_y * high) >> 15;
+    frame->along_y = (-frame->right_x * high) >> 15;
+    frame->across_x = (frame->right_x * wide) >> 15;
+    frame->across_y = (frame->right_y * wide) >> 15;
     /* focal * 2 length_q7 / depth > edge, with depth as 65535 near / (1/depth). */
     uint32_t edge_q4 = frame->view.edge_q4;
     /* About a sixteenth of the width. A smaller screen wants a little less: more of its triangles
@@ -233,26 +270,28 @@ static void find_lengths(yb_frame_t *frame, const pose_t *pose)
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
         edge_q4 = (uint32_t)fix_max(28 * width / 25 - 20, (width + 1) >> 1);
-    uint64_t edge = (uint64_t)edge_q4 * 65535;
-    uint64_t longest =
-        (edge * (uint32_t)frame->near << frame->eye_shift) / (uint32_t)(2 * frame->focal_q4);
-    frame->longest = longest < UINT32_MAX ? (uint32_t)longest : UINT32_MAX;
+    frame->longest = share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
 }
 
 void camera_begin(yb_frame_t *frame, int32_t stray)
 {
     const yb_view_t *view = &frame->view;
-    pose_t pose;
-    find_pose(view, &pose);
     frame->focal_q4 =
         fix_min((int32_t)(((uint32_t)frame->screen.width * view->zoom_q12) >> 8), MOST_FOCAL_Q4);
-    find_rows(frame, &pose, stray);
-    find_near(frame, stray);
-    find_lift(frame);
-    find_lengths(frame, &pose);
+    find_rows(frame);
+    find_shift(frame, stray);
+    int32_t bend = (fix_abs(frame->depth_z) * view->exaggerate_q8) >> 8; /* 17 bits */
+    find_near(frame, stray, bend);
+    /* 40 bits: near has 17, and eye_shift is 7 at most. */
+    uint64_t whole = (uint64_t)65535 * (uint32_t)frame->near << frame->eye_shift;
+    frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
+    find_lift(frame, whole, (uint32_t)bend);
+    find_lengths(frame, whole);
     for (int i = 0; i < frame->map->vertex_count; i++) {
+        const yb_vertex_t *v = &frame->map->vertex[i];
         yb_point_t point;
-        camera_root(frame, (yb_index_t)i, &point);
+        point.place = relief_place(v);
+        point.top_q8 = fix_max(v->z_q8, view->water_q8);
         camera_see(frame, &point);
         frame->seen[i].x_q4 = point.spot.x_q4;
         frame->seen[i].y_q4 = point.spot.y_q4;
@@ -273,20 +312,14 @@ void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera
     to->depth = (x * frame->depth_x + y * frame->depth_y + z * frame->depth_z) >> 14;
 }
 
-static inline int32_t shifted(int32_t a, int shift)
+/* 2^29 over a depth that is shifted so: 2^14 to 2^15. */
+static inline int32_t inverse_of(int32_t depth, int shift)
 {
-    return shift >= 0 ? a >> shift : a * (1 << -shift);
-}
-
-/* Depth as d * 2^shift with 2^14 <= d < 2^15, and 2^29 / d: above 2^14 and at most 2^15. */
-static int32_t inverse_of(int32_t depth, int *shift)
-{
-    *shift = fix_log2_floor((uint32_t)depth) - 14;
-    return fix_reciprocal(shifted(depth, *shift));
+    return fix_reciprocal(shifted(depth, shift));
 }
 
 /* near / depth * 2^16: both factors have 15 bits, and depth is hardly nearer than near. */
-static int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
+static inline int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
 {
     int32_t ratio = (frame->near_scaled * inverse) >> (13 + shift - frame->near_shift);
     return fix_clamp(ratio, 1, 65535);
@@ -294,9 +327,8 @@ static int32_t near_ratio(const yb_frame_t *frame, int32_t inverse, int shift)
 
 int32_t camera_near(const yb_frame_t *frame, int32_t depth)
 {
-    int shift;
-    int32_t inverse = inverse_of(depth, &shift);
-    return near_ratio(frame, inverse, shift);
+    int shift = shift_of(depth);
+    return near_ratio(frame, inverse_of(depth, shift), shift);
 }
 
 /* Where a place is seen from the upper left corner, 1/16 pixel, and its 1/depth. right and up are
@@ -306,8 +338,8 @@ int32_t camera_near(const yb_frame_t *frame, int32_t depth)
 static inline int32_t project(const yb_frame_t *frame, const camera_point_t *from, int32_t *x_q4,
                               int32_t *y_q4)
 {
-    int shift;
-    int32_t inverse = inverse_of(from->depth, &shift);
+    int shift = shift_of(from->depth);
+    int32_t inverse = inverse_of(from->depth, shift);
     int32_t x = (shifted(from->right, shift) * inverse) >> 15; /* Q14 */
     int32_t y = (shifted(from->up, shift) * inverse) >> 15;
     *x_q4 = frame->screen.width * 8 + ((x * frame->focal_q4) >> 14);

@@ -24,41 +24,37 @@ typedef struct {
  */
 static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int plane)
 {
-    /* One screen size beyond each side: 3/2 from the middle. But never beyond |right|, |up| = 2
-     * depth. */
     const camera_point_t *p = &corner->at;
-    int32_t focal = frame->focal_q4;
-    int32_t wide = fix_min(frame->screen.width * 24, 2 * focal);
-    int32_t high = fix_min(frame->screen.height * 24, 2 * focal);
-    int64_t inside = 0;
-    switch (plane) {
-    case 0:
-        inside = p->depth - frame->near;
-        break;
-    case 1:
-        inside = (int64_t)p->depth * wide - (int64_t)p->right * focal;
-        break;
-    case 2:
-        inside = (int64_t)p->depth * wide + (int64_t)p->right * focal;
-        break;
-    case 3:
-        inside = (int64_t)p->depth * high - (int64_t)p->up * focal;
-        break;
-    default:
-        inside = (int64_t)p->depth * high + (int64_t)p->up * focal;
+    int64_t inside = p->depth - frame->near;
+    if (plane > 0) {
+        /* One screen size beyond each side: 3/2 from the middle. But never beyond |right|, |up| =
+         * 2 depth. */
+        bool aside = plane < 3;
+        int32_t size = aside ? frame->screen.width : frame->screen.height;
+        int32_t off = aside ? p->right : p->up;
+        if ((plane & 1) != 0)
+            off = -off;
+        inside = (int64_t)p->depth * fix_min(size * 24, 2 * frame->focal_q4) +
+                 (int64_t)off * frame->focal_q4;
     }
     return corner->spot != NULL && inside < 0 ? 0 : inside;
 }
 
-/* Where the way from p, `from` inside, to q, `to` outside, meets the plane. */
-static void cut(const corner_t *p, const corner_t *q, int64_t from, int64_t to, corner_t *cut_at)
+/* An end of a polygon's side, and how far inside a plane it is. */
+typedef struct {
+    corner_t corner;
+    int64_t inside;
+} end_t;
+
+/* Where the way from an end inside to one outside meets the plane. */
+static void cut(const end_t *from, const end_t *to, corner_t *cut_at)
 {
-    const camera_point_t *a = &p->at;
-    const camera_point_t *b = &q->at;
-    int64_t part_q20 = from * ((int32_t)1 << 20) / (from - to);
-    cut_at->at.right = a->right + (int32_t)(((b->right - a->right) * part_q20) >> 20);
-    cut_at->at.up = a->up + (int32_t)(((b->up - a->up) * part_q20) >> 20);
-    cut_at->at.depth = a->depth + (int32_t)(((b->depth - a->depth) * part_q20) >> 20);
+    const camera_point_t *a = &from->corner.at;
+    const camera_point_t *b = &to->corner.at;
+    int32_t part_q20 = (int32_t)(from->inside * ((int32_t)1 << 20) / (from->inside - to->inside));
+    cut_at->at.right = a->right + fix_product(b->right - a->right, part_q20, 20);
+    cut_at->at.up = a->up + fix_product(b->up - a->up, part_q20, 20);
+    cut_at->at.depth = a->depth + fix_product(b->depth - a->depth, part_q20, 20);
     cut_at->spot = NULL;
 }
 
@@ -69,21 +65,18 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
 {
     int count = polygon->count;
     corner_t *corner = polygon->corner;
-    corner_t first = corner[0];
-    corner_t p = first;
-    int64_t p_in = inside_of(frame, &p, plane);
+    corner[count] = corner[0]; /* before the last plane too there is room for one more */
+    end_t p = {corner[0], inside_of(frame, &corner[0], plane)};
     polygon->count = 0;
     for (int i = 1; i <= count; i++) {
-        corner_t q = i < count ? corner[i] : first;
-        int64_t q_in = inside_of(frame, &q, plane);
-        if (p_in >= 0)
-            corner[polygon->count++] = p;
-        if (p_in >= 0 && q_in < 0)
-            cut(&p, &q, p_in, q_in, &corner[polygon->count++]);
-        else if (p_in < 0 && q_in >= 0)
-            cut(&q, &p, q_in, p_in, &corner[polygon->count++]);
+        end_t q = {corner[i], inside_of(frame, &corner[i], plane)};
+        if (p.inside >= 0)
+            corner[polygon->count++] = p.corner;
+        if ((p.inside ^ q.inside) < 0) {
+            const end_t *from = p.inside >= 0 ? &p : &q;
+            cut(from, from == &p ? &q : &p, &corner[polygon->count++]);
+        }
         p = q;
-        p_in = q_in;
     }
 }
 
@@ -91,13 +84,16 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
  * between it and another: camera_project wants the pyramid itself. Both are off the screen, and
  * triangles with a common edge cut it alike.
  */
-static void keep_in_pyramid(polygon_t *polygon)
+static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spot)
 {
-    for (int i = 0; i < polygon->count; i++) {
-        camera_point_t *at = &polygon->corner[i].at;
-        at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
-        at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
+    camera_point_t *at = &corner->at;
+    if (corner->spot != NULL) {
+        *spot = *corner->spot;
+        return;
     }
+    at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
+    at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
+    camera_project(frame, at, spot);
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
@@ -111,16 +107,10 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
     }
     for (int plane = 0; plane < PLANES && polygon.count > 0; plane++)
         clip_plane(frame, &polygon, plane);
-    keep_in_pyramid(&polygon);
     yb_spot_t fan[3];
     bool drawn = false;
     for (int i = 0; i < polygon.count; i++) {
-        yb_spot_t *to = &fan[fix_min(i, 2)];
-        const corner_t *from = &polygon.corner[i];
-        if (from->spot != NULL)
-            *to = *from->spot;
-        else
-            camera_project(frame, &from->at, to);
+        see_corner(frame, &polygon.corner[i], &fan[fix_min(i, 2)]);
         if (i < 2)
             continue;
         if (raster_draw(raster, &fan[0], &fan[1], &fan[2], pixel) != RASTER_NOTHING)

@@ -76,6 +76,11 @@ uint32_t fix_exp2_q11(int32_t e_q11)
     return (mantissa + (1u << (shift - 1))) >> shift;
 }
 
+int32_t fix_product(int32_t a, int32_t b, int shift)
+{
+    return (int32_t)(((int64_t)a * b) >> shift);
+}
+
 int32_t fix_scale(int32_t a, int32_t b, int32_t c)
 {
     return (int32_t)((int64_t)a * b / c);

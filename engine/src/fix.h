@@ -55,6 +55,9 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
     return dx > dy ? dx + (3 * dy >> 3) : dy + (3 * dx >> 3);
 }
 
+/* The low 32 bits of a * b >> shift, 0 <= shift < 63, rounded down. */
+int32_t fix_product(int32_t a, int32_t b, int shift);
+
 /* a * b / c, rounded towards zero; c is not 0 and the result fits. */
 int32_t fix_scale(int32_t a, int32_t b, int32_t c);
 

@@ -33,8 +33,8 @@ static int32_t farthest_stray(yb_frame_t *frame)
     int32_t relief = map->high_q8 - map->low_q8;
     frame->base_q8 = map->low_q8 - (relief >> 2) - 256;
     if (frame->view.walls)
-        farthest = fix_max(farthest, map->high_q8 + farthest - frame->base_q8);
-    return fix_max(farthest, frame->view.water_q8 - fix_min(map->low_q8, frame->view.water_q8));
+        farthest += map->high_q8 - frame->base_q8;
+    return fix_max(frame->view.water_q8, map->low_q8 + farthest) - map->low_q8;
 }
 
 /* The contour line below all that shade_cut asks for: heights, less a quarter of a triangle's.
@@ -91,7 +91,6 @@ yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *scree
 void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,
                     const yb_screen_t *screen)
 {
-    memset(&frame->stats, 0, sizeof frame->stats);
     frame->map = map;
     frame->view = *view;
     frame->screen = *screen;
@@ -102,7 +101,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->even_water = view->shadow == NULL && view->haze_q8 <= 0 && !view->lamp;
     colour_begin(frame);
     frame->row_shift = 0;
-    while ((screen->height - 1) >> frame->row_shift > 15)
+    for (int32_t last = screen->height - 1; last > 15; last >>= 1)
         frame->row_shift++;
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);

@@ -41,25 +41,27 @@ static cells_t cells_within(const field_t *field, uint16_t a, uint16_t b, uint16
                      fix_min((most + half) >> field->shift, field->side)};
 }
 
-/* How near a place is to each corner of a triangle: twice the area that it makes with the opposite
- * side, and what a cell further east or north adds. Places are in 1/16 step, 12 bits: areas
- * have 25.
+/* How near a place is to two corners of a triangle: twice the area that it makes with the opposite
+ * side, and what a cell further east or north adds. The third corner has the rest of the whole.
+ * Places are in 1/16 step, 12 bits: areas have 25.
  */
 typedef struct {
-    int32_t at[3], east[3], north[3];
+    int32_t at[2], east[2], north[2];
+    int32_t whole;
 } weights_t;
 
-static void weigh_cell(const yb_vertex_t *const p[3], int32_t x, int32_t y, int cell_shift,
+static void weigh_cell(const yb_vertex_t *const p[4], int32_t x, int32_t y, int cell_shift,
                        weights_t *weights)
 {
-    for (int k = 0; k < 3; k++) {
-        const yb_vertex_t *from = p[k == 2 ? 0 : k + 1];
-        const yb_vertex_t *to = p[k == 0 ? 2 : k - 1];
-        int32_t dx = fix_minus(to->x_q8 >> 4, from->x_q8 >> 4);
-        int32_t dy = fix_minus(to->y_q8 >> 4, from->y_q8 >> 4);
-        weights->at[k] = dx * (y - (from->y_q8 >> 4)) - dy * (x - (from->x_q8 >> 4));
+    for (int k = 0; k < 2; k++) {
+        int32_t from_x = p[k + 1]->x_q8 >> 4;
+        int32_t from_y = p[k + 1]->y_q8 >> 4;
+        int32_t dx = (p[k + 2]->x_q8 >> 4) - from_x;
+        int32_t dy = (p[k + 2]->y_q8 >> 4) - from_y;
+        weights->at[k] = dx * (y - from_y) - dy * (x - from_x);
         weights->east[k] = -dy * ((int32_t)1 << cell_shift);
         weights->north[k] = dx * ((int32_t)1 << cell_shift);
+        weights->whole = dx * ((p[k]->y_q8 >> 4) - from_y) - dy * ((p[k]->x_q8 >> 4) - from_x);
     }
 }
 
@@ -68,7 +70,7 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
                       const yb_vertex_t *c)
 {
     const field_t *field = context;
-    const yb_vertex_t *const p[3] = {a, b, c};
+    const yb_vertex_t *const p[4] = {a, b, c, a};
     const cells_t columns = cells_within(field, a->x_q8, b->x_q8, c->x_q8);
     const cells_t rows = cells_within(field, a->y_q8, b->y_q8, c->y_q8);
     if (columns.first >= columns.end || rows.first >= rows.end)
@@ -77,7 +79,7 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
     weights_t row;
     weigh_cell(p, ((columns.first << field->shift) + half) >> 4,
                ((rows.first << field->shift) + half) >> 4, field->shift - 4, &row);
-    int32_t area = row.at[0] + row.at[1] + row.at[2];
+    int32_t area = row.whole;
     if (area <= 0)
         return;
     /* Shares of 2^8 by one division: a weight of 15 bits times 2^23 / area is below 2^24. */
@@ -87,9 +89,8 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
         uint8_t *height = &field->height[j * field->side];
         int32_t to_a = row.at[0];
         int32_t to_b = row.at[1];
-        int32_t to_c = row.at[2];
         for (int32_t i = columns.first; i < columns.end; i++) {
-            if ((to_a | to_b | to_c) >= 0) { /* none is negative */
+            if ((to_a | to_b | (area - to_a - to_b)) >= 0) { /* none is negative */
                 /* Heights differ by less than 2^20: 2^28. */
                 int32_t of_a = (to_a >> spare) * inverse >> 15;
                 int32_t of_b = (to_b >> spare) * inverse >> 15;
@@ -99,10 +100,9 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
             }
             to_a += row.east[0];
             to_b += row.east[1];
-            to_c += row.east[2];
         }
-        for (int k = 0; k < 3; k++)
-            row.at[k] += row.north[k];
+        row.at[0] += row.north[0];
+        row.at[1] += row.north[1];
     }
 }
 
@@ -110,7 +110,6 @@ static void find_heights(const yb_map_t *map, const yb_view_t *view, const yb_sh
                          field_t *field)
 {
     field->side = shadow->side;
-    field->shift = shadow_cell_shift(shadow);
     field->low_q8 = map->low_q8;
     field->water_q8 = view->water_q8;
     field->scale_shift = 0;
@@ -137,27 +136,28 @@ enum {
     NOTHING = -32768
 };
 
-/* The shadow's height a row behind `top`, of so many cells, at cell j of it. */
-static int32_t shadow_height(const int16_t *top, int32_t cells, int32_t j, const ray_t *ray)
+/* The shadow's height above a cell, from where the row before has it at that cell: at most one cell
+ * aside, between there and the next.
+ */
+static int32_t shadow_height(const int16_t *top, const ray_t *ray)
 {
-    int32_t at = j + (ray->aside_q8 >> 8);
-    int32_t part = ray->aside_q8 & 255;
-    int32_t here = at >= 0 && at < cells ? top[at] : NOTHING;
-    int32_t next = at + 1 >= 0 && at + 1 < cells ? top[at + 1] : NOTHING;
-    return here + ((next - here) * part >> 8) - ray->drop;
+    top += ray->aside_q8 >> 8;
+    return top[0] + ((top[1] - top[0]) * (ray->aside_q8 & 255) >> 8) - ray->drop;
 }
 
 /* Goes through the rows of cells across the sun's way, beginning with those next to the sun. `top`
- * is how high ground or shadow reaches, in the row before, and up to cell j in this one.
+ * is how high ground or shadow reaches, in the row before, and up to cell j in this one; nothing
+ * does beyond a row's ends.
  */
 static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, bool along_x,
                   bool ascending)
 {
-    int16_t top[MOST_SIDE];
+    int16_t rows[1 + MOST_SIDE + 2];
+    int16_t *top = &rows[1];
     int32_t side = field->side;
     int32_t lines = along_x ? shadow->columns : shadow->rows;
     int32_t cells = along_x ? shadow->rows : shadow->columns;
-    for (int32_t j = 0; j < cells; j++)
+    for (int32_t j = -1; j < cells + 2; j++)
         top[j] = NOTHING;
     for (int32_t k = 0; k < lines; k++) {
         int32_t i = ascending ? k : lines - 1 - k;
@@ -166,7 +166,7 @@ static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, b
             int32_t j = ray->aside_q8 >= 0 ? m : cells - 1 - m;
             int32_t at = along_x ? j * side + i : i * side + j;
             int32_t ground = (int32_t)field->height[at] << FINE;
-            int32_t shade = shadow_height(top, cells, j, ray);
+            int32_t shade = shadow_height(&top[j], ray);
             if (ground + SLACK >= shade)
                 shadow->lit[at >> 3] = (uint8_t)(shadow->lit[at >> 3] | 1 << (at & 7));
             top[j] = (int16_t)fix_max(fix_max(ground, shade), NOTHING);
@@ -175,15 +175,15 @@ static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, b
 }
 
 /* Cells whose middles lie within a side of the map. */
-static uint16_t cells_of(const yb_shadow_t *shadow, uint16_t length_q8)
+static uint16_t cells_of(uint16_t length_q8, int shift)
 {
-    int shift = shadow_cell_shift(shadow);
     return (uint16_t)(fix_max((length_q8 - ((int32_t)1 << (shift - 1))) >> shift, 0) + 1);
 }
 
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work)
 {
-    field_t field = {.height = work};
+    const int shift = shadow_cell_shift(shadow);
+    field_t field = {.height = work, .shift = shift};
     const int16_t *sun = view->sun_q14;
     bool along_x = fix_abs(sun[0]) >= fix_abs(sun[1]);
     int32_t ahead = along_x ? sun[0] : sun[1];
@@ -191,15 +191,15 @@ void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *sha
     int32_t size = fix_abs(ahead);
     int32_t up = sun[2];
     bool high = up > 0 && up >> 6 >= size; /* 89 degrees: nothing casts a shadow */
-    shadow->columns = cells_of(shadow, map->east_q8);
-    shadow->rows = cells_of(shadow, map->north_q8);
+    shadow->columns = cells_of(map->east_q8, shift);
+    shadow->rows = cells_of(map->north_q8, shift);
     memset(shadow->lit, high ? 0xff : 0, YB_SHADOW_BYTES(shadow->side));
     if (high || up <= 0)
         return;
     find_heights(map, view, shadow, &field);
     /* A cell is at most 2^12 wide, the sine below 2^6 times the cosine: 2^18, and as much again by
      * the scale. */
-    int32_t drop_q8 = ((up << 6) / size << field.shift) >> 6;
+    int32_t drop_q8 = ((up << 6) / size << shift) >> 6;
     int32_t scale = fix_max(view->exaggerate_q8, 1);
     drop_q8 = fix_min(drop_q8, ((int32_t)1 << 23) - 1) * 256 / scale;
     ray_t ray = {.aside_q8 = aside * 256 / size,

@@ -40,6 +40,12 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
     return pattern;
 }
 
+static void find_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
+{
+    for (int i = 0; i < 3; i++)
+        corner[i] = &map->vertex[map->triangle[triangle][i]];
+}
+
 static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],
                  const uint8_t child[3], const yb_vertex_t *picked[3])
 {
@@ -53,8 +59,7 @@ void surface_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longes
                     surface_level_t *levels, int count, yb_triangle_fn fn, void *context)
 {
     surface_level_t *level = levels;
-    for (int i = 0; i < 3; i++)
-        level->corner[i] = &map->vertex[map->triangle[triangle][i]];
+    find_corners(map, triangle, level->corner);
     for (;;) {
         level->pattern = 0;
         if (level != &levels[count - 1])
@@ -117,16 +122,13 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
 {
     int32_t x = fix_min(x_q8, map->east_q8);
     int32_t y = fix_min(y_q8, map->north_q8);
-    yb_vertex_t corner[3] = {{0}};
-    const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
-    int64_t weight[3] = {0};
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        for (int i = 0; i < 3; i++)
-            corner[i] = map->vertex[map->triangle[t][i]];
-        if (weigh(p, x, y, weight))
-            break; /* the triangles tile the frame: one does */
-    }
-    for (;;) {
+    const yb_vertex_t *p[3];
+    int64_t weight[3];
+    yb_triangle_t t = 0;
+    do {
+        find_corners(map, t, p);
+    } while (!weigh(p, x, y, weight) && ++t < map->triangle_count); /* they tile the frame */
+    for (yb_vertex_t corner[3];;) {
         yb_vertex_t middle[3];
         uint8_t pattern = split_edges(map, p, YB_REFERENCE_Q8, middle);
         if (pattern == 0)
@@ -137,8 +139,10 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
             if (weigh(child, x, y, weight))
                 break;
         }
-        yb_vertex_t next[3] = {*child[0], *child[1], *child[2]};
-        for (int i = 0; i < 3; i++)
+        const yb_vertex_t next[3] = {*child[0], *child[1], *child[2]};
+        for (int i = 0; i < 3; i++) {
             corner[i] = next[i];
+            p[i] = &corner[i];
+        }
     }
 }

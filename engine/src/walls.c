@@ -9,68 +9,61 @@
 #include "refine.h"
 #include "shade.h"
 
-/* Both ends on one side of the frame: then the whole edge is, with the ground to its left. */
-static bool on_one_side(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b)
+/* Does an edge that has one coordinate at its ends lie on a side of the frame, and the eye beyond?
+ */
+static bool is_before(uint16_t a, uint16_t b, uint16_t end, int32_t eye)
 {
-    return (a->x_q8 == b->x_q8 && (a->x_q8 == 0 || a->x_q8 == map->east_q8)) ||
-           (a->y_q8 == b->y_q8 && (a->y_q8 == 0 || a->y_q8 == map->north_q8));
+    return a == b && ((a == 0 && eye < 0) || (a == end && eye > end));
 }
 
-/* Does the wall below an edge on the frame show its outside? Only to an eye beyond that side. */
-static bool faces(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+/* Is edge `which` of a triangle on the frame, and does the wall below it show its outside? */
+static bool faces(const yb_frame_t *frame, yb_triangle_t triangle, int which)
 {
     const yb_map_t *map = frame->map;
+    const yb_index_t *corner = map->triangle[triangle];
+    const yb_vertex_t *a = &map->vertex[corner[which]];
+    const yb_vertex_t *b = &map->vertex[corner[which == 2 ? 0 : which + 1]];
     const int32_t *eye = frame->view.eye_q8;
-    if (a->x_q8 == b->x_q8 && (a->x_q8 == 0 ? eye[0] < 0 : eye[0] > map->east_q8))
-        return on_one_side(map, a, b);
-    if (a->y_q8 == b->y_q8 && (a->y_q8 == 0 ? eye[1] < 0 : eye[1] > map->north_q8))
-        return on_one_side(map, a, b);
-    return false;
+    return is_before(a->x_q8, b->x_q8, map->east_q8, eye[0]) ||
+           is_before(a->y_q8, b->y_q8, map->north_q8, eye[1]);
 }
 
 void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
 {
-    const yb_map_t *map = frame->map;
-    const yb_index_t *corner = map->triangle[triangle];
     for (int i = 0; i < 3; i++) {
-        if (faces(frame, &map->vertex[corner[i]], &map->vertex[corner[i == 2 ? 0 : i + 1]]))
+        if (faces(frame, triangle, i))
             frame->rim[triangle >> 3] = (uint8_t)(frame->rim[triangle >> 3] | 1 << (triangle & 7));
     }
 }
 
-static void draw_half(yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3],
-                      uint16_t pixel)
+/* The wall below a piece of an edge from a to b: b, a and what lies straight below a and b. */
+typedef struct {
+    const yb_point_t *corner[4];
+    yb_point_t foot[2];
+} wall_t;
+
+static void find_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                      wall_t *wall)
 {
-    raster_look_t look = raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
-    if (look != RASTER_NOTHING && (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel)))
-        frame->stats.drawn++;
+    wall->corner[0] = b;
+    wall->corner[1] = a;
+    for (int i = 0; i < 2; i++) {
+        camera_drop(frame, wall->corner[1 - i], frame->base_q8, &wall->foot[i]);
+        wall->corner[2 + i] = &wall->foot[i];
+    }
 }
 
-static void draw_piece(yb_frame_t *frame, const raster_t *raster, const yb_point_t *a,
-                       const yb_point_t *b)
+static void draw_wall(yb_frame_t *frame, const raster_t *raster, const wall_t *wall)
 {
-    uint16_t pixel = shade_wall(frame, a, b);
-    yb_point_t a_foot;
-    yb_point_t b_foot;
-    camera_drop(frame, a, frame->base_q8, &a_foot);
-    camera_drop(frame, b, frame->base_q8, &b_foot);
-    const yb_point_t *const upper[3] = {b, a, &a_foot};
-    const yb_point_t *const lower[3] = {b, &a_foot, &b_foot};
+    const yb_point_t *const *corner = wall->corner;
+    uint16_t pixel = shade_wall(frame, corner[1], corner[0]);
     frame->stats.refined += 2;
-    draw_half(frame, raster, upper, pixel);
-    draw_half(frame, raster, lower, pixel);
-}
-
-/* Is the wall below the edge ab out of sight, however the edge is refined? */
-static bool hidden(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
-                   const yb_point_t *b, int32_t stray)
-{
-    yb_point_t a_foot;
-    yb_point_t b_foot;
-    camera_drop(frame, a, frame->base_q8, &a_foot);
-    camera_drop(frame, b, frame->base_q8, &b_foot);
-    const yb_point_t *const wall[4] = {a, b, &a_foot, &b_foot};
-    return refine_misses(frame, view, wall, 4, stray);
+    for (int i = 1; i < 3; i++) {
+        const yb_point_t *const p[3] = {corner[0], corner[i], corner[i + 1]};
+        raster_look_t look = raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
+        if (look != RASTER_NOTHING && (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel)))
+            frame->stats.drawn++;
+    }
 }
 
 /* Refines one edge of a triangle from a to b, left to right: of the points where the parts to come
@@ -89,19 +82,25 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
         const yb_point_t *to = at->rest.point[0];
         yb_edge_t *edge = &at->rest.edge[0];
         bool split = *edge >= REFINE_ONCE && at != last;
-        bool seen = (at != level && !split) || !hidden(frame, view, &from, to, stray);
+        wall_t wall;
+        find_wall(frame, &from, to, &wall);
+        /* Is it out of sight, however the edge is refined? */
+        bool seen = (at != level && !split) || !refine_misses(frame, view, wall.corner, 4, stray);
         if (split && seen) {
-            refine_middle(frame, view, &from, to, *edge, &at->middle);
-            bool ask = *edge >= REFINE_AGAIN;
             yb_edge_t half = refine_half(*edge);
-            *edge = ask ? refine_ask(frame, &at->middle, to, half) : half;
+            bool ask = *edge >= REFINE_AGAIN;
+            refine_middle(frame, view, &from, to, *edge, &at->middle);
             at[1].rest.point[0] = &at->middle;
-            at[1].rest.edge[0] = ask ? refine_ask(frame, &from, &at->middle, half) : half;
+            at[1].rest.edge[0] = *edge = half;
+            if (ask) {
+                *edge = refine_ask(frame, &at->middle, to, half);
+                at[1].rest.edge[0] = refine_ask(frame, &from, &at->middle, half);
+            }
             at++;
             continue;
         }
         if (seen)
-            draw_piece(frame, raster, &from, to);
+            draw_wall(frame, raster, &wall);
         if (at == level)
             return;
         from = *to;
@@ -129,9 +128,7 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
         if (bins >> 4 > last_bin && bins >> 4 <= (bins & 15))
             continue;
         for (int i = 0; i < 3; i++) {
-            const yb_vertex_t *a = &map->vertex[map->triangle[t][i]];
-            const yb_vertex_t *b = &map->vertex[map->triangle[t][i == 2 ? 0 : i + 1]];
-            if (!faces(frame, a, b))
+            if (!faces(frame, t, i))
                 continue;
             yb_part_t part;
             refine_root(frame, view, t, &part);

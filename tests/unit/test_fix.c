@@ -157,6 +157,17 @@ static void sine_and_cosine(void **state)
     assert_int_equal(yb_cos_q14(0x8000), -16384);
 }
 
+static void products(void **state)
+{
+    (void)state;
+    assert_int_equal(fix_product(INT32_MIN, INT32_MIN, 62), 1);
+    assert_int_equal(fix_product(INT32_MIN, INT32_MAX, 62), -1);
+    assert_int_equal(fix_product(INT32_MAX, INT32_MAX, 61), 1);
+    assert_int_equal(fix_product(-1, 1, 14), -1); /* rounded down */
+    assert_int_equal(fix_product(-(1 << 24), 1 << 14, 14), -(1 << 24));
+    assert_int_equal(fix_product(1 << 24, 1 << 8, 0), 0); /* the low 32 bits */
+}
+
 static void inverses(void **state)
 {
     (void)state;
@@ -188,6 +199,7 @@ int main(void)
         cmocka_unit_test(exp2_is_within_its_bound),
         cmocka_unit_test(square_root_is_exact),
         cmocka_unit_test(sine_and_cosine),
+        cmocka_unit_test(products),
         cmocka_unit_test(inverses),
         cmocka_unit_test(degrees),
     };

@@ -442,7 +442,7 @@ void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 /* Casts the shadows of a map as a view's sun (not its lamp), vertical scale and water make them:
  * once, for all frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free
  * afterwards. A point is in shadow if the surface, refined to four cells, hides the sun; frames
- * blend from cell to cell. Cost: 64 cells a side take about 2.6 M instructions on a Cortex-M3
+ * blend from cell to cell. Cost: 64 cells a side take about 2.3 M instructions on a Cortex-M3
  * (scripts/bench instructions) and 1 KB of stack.
  */
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work);
@@ -541,33 +541,35 @@ typedef struct {
 /* Working memory of a frame. Only stats is for the caller to read. */
 typedef struct {
     yb_stats_t stats;
-    const yb_map_t *map;
-    yb_view_t view;
+    /* Bytes and small numbers first, then what is used most: the shortest instructions of small
+     * processors reach no farther. */
+    uint8_t eye_shift;
+    uint8_t lift_shift;
+    uint8_t row_shift; /* rows are binned by so many bits: at most 16 bins */
+    bool even_water;   /* nothing shades it: it need not be split */
+    bool lines;        /* there may be any on the ground */
+    int16_t lift;      /* pixels that one unit of height rises on the screen, by 1/depth */
     yb_screen_t screen;
+    const yb_map_t *map;
+    int32_t near;        /* nothing nearer is drawn: view space, q8 >> eye_shift */
+    int32_t near_scaled; /* near as 15 bits: shifted left by 10 … */
+    int32_t near_shift;  /* … and then right by so many */
+    int32_t focal_q4;    /* pixels */
     /* From the map to the view: rows right, up and depth, Q14. Places are taken relative to the
      * eye and shifted right by eye_shift, which gives them 16 bits. */
     int32_t right_x, right_y, up_x, up_y, up_z, depth_x, depth_y, depth_z;
-    uint8_t eye_shift;
-    uint8_t lift_shift;
-    int16_t lift;        /* pixels that one unit of height rises on the screen, by 1/depth */
-    int32_t most_bend;   /* height times 1/depth that changes a point's depth by a 64th */
-    int32_t sway_x_q4;   /* farthest that one unit of height moves a point on the screen, … */
-    int32_t sway_y_q4;   /* … by 1/depth: see refine.c */
-    int32_t spare_q4;    /* what rounding in view space does at the near distance */
-    int32_t near;        /* nothing nearer is drawn: view space, q8 >> eye_shift */
-    int32_t near_scaled; /* near as 15 bits … */
-    int32_t near_shift;  /* … times 2^near_shift */
-    int32_t base_q8;     /* where the walls end */
-    int32_t focal_q4;    /* pixels */
-    uint32_t longest;    /* an edge is split while length * 1/depth is above it */
+    uint32_t longest; /* an edge is split while length * 1/depth is above it */
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
-    int32_t tone_q16;                             /* hues per height unit */
     int32_t haze_near, haze_q16;                  /* 1/depth where haze begins; 256 over that */
-    bool even_water;                              /* nothing shades it: it need not be split */
-    bool lines;                                   /* there may be any on the ground */
-    int32_t contour_low;            /* a contour line's height below all of them, … */
-    uint32_t contour_inverse;       /* … and 2^20 over their interval */
-    uint8_t row_shift;              /* rows are binned by so many bits: at most 16 bins */
+    int32_t tone_q16;                             /* hues per height unit */
+    int32_t contour_low;      /* a contour line's height below all of them, … */
+    uint32_t contour_inverse; /* … and 2^20 over their interval */
+    int32_t base_q8;          /* where the walls end */
+    int32_t most_bend;        /* height times 1/depth that changes a point's depth by a 64th */
+    int32_t sway_x_q4; /* farthest that one unit of height moves a point on the screen, … */
+    int32_t sway_y_q4; /* … by 1/depth: see refine.c */
+    int32_t spare_q4;  /* what rounding in view space does at the near distance */
+    yb_view_t view;
     uint8_t rows[YB_MAX_TRIANGLES]; /* of a base triangle: first and last bin, a nibble each */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
     yb_point_t root[3];
