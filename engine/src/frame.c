@@ -105,11 +105,9 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
         frame->row_shift++;
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
-    memset(frame->rim, 0, sizeof frame->rim);
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++)
         refine_bin(frame, &whole, t);
-        walls_bin(frame, t);
-    }
+    walls_begin(frame);
     bound_leaves(frame, &whole);
 }
 

@@ -155,8 +155,8 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
  */
 void refine_count(yb_frame_t *frame, const refine_view_t *whole);
 
-/* Notes in frame->rim whether a base triangle has an edge on the frame. */
-void walls_bin(yb_frame_t *frame, yb_triangle_t triangle);
+/* Notes in frame->rim which base triangles have an edge on the frame whose wall shows its outside. */
+void walls_begin(yb_frame_t *frame);
 
 /* Draws the walls below the frame. */
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);

@@ -33,11 +33,16 @@ typedef struct {
     int32_t x, y, z;
 } normal_t;
 
+/* A number's size, but that a negative one counts as one less: for that there is one instruction. */
+static inline uint32_t size_of(int32_t a)
+{
+    return (uint32_t)(a < 0 ? ~a : a);
+}
+
 /* Brings the greatest of three numbers to 13 bits. */
 static inline void to_13_bits(normal_t *n)
 {
-    /* As their sizes, but for less work: a negative one counts as one less. */
-    uint32_t all = (uint32_t)((n->x ^ n->x >> 31) | (n->y ^ n->y >> 31) | (n->z ^ n->z >> 31));
+    uint32_t all = size_of(n->x) | size_of(n->y) | size_of(n->z);
     int shift = fix_log2_floor(all | 1) - 12;
     if (shift >= 0) {
         n->x >>= shift;

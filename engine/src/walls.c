@@ -3,6 +3,8 @@
  * An edge is refined by the same rules as in its triangle, so a wall's upper rim is the surface's
  * edge to the pixel.
  */
+#include <string.h>
+
 #include "camera.h"
 #include "clip.h"
 #include "fix.h"
@@ -28,11 +30,20 @@ static bool faces(const yb_frame_t *frame, yb_triangle_t triangle, int which)
            is_before(a->y_q8, b->y_q8, map->north_q8, eye[1]);
 }
 
-void walls_bin(yb_frame_t *frame, yb_triangle_t triangle)
+void walls_begin(yb_frame_t *frame)
 {
-    for (int i = 0; i < 3; i++) {
-        if (faces(frame, triangle, i))
-            frame->rim[triangle >> 3] = (uint8_t)(frame->rim[triangle >> 3] | 1 << (triangle & 7));
+    const yb_map_t *map = frame->map;
+    const int32_t *eye = frame->view.eye_q8;
+    memset(frame->rim, 0, sizeof frame->rim);
+    /* From above the block none of its sides is seen. */
+    if (!frame->view.walls ||
+        (eye[0] >= 0 && eye[0] <= map->east_q8 && eye[1] >= 0 && eye[1] <= map->north_q8))
+        return;
+    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+        for (int i = 0; i < 3; i++) {
+            if (faces(frame, t, i))
+                frame->rim[t >> 3] = (uint8_t)(frame->rim[t >> 3] | 1 << (t & 7));
+        }
     }
 }
 
