@@ -142,7 +142,9 @@ enum {
 static int32_t shadow_height(const int16_t *top, const ray_t *ray)
 {
     top += ray->aside_q8 >> 8;
-    return top[0] + ((top[1] - top[0]) * (ray->aside_q8 & 255) >> 8) - ray->drop;
+    const int32_t here = top[0];
+    const int32_t next = top[1];
+    return here + ((next - here) * (ray->aside_q8 & 255) >> 8) - ray->drop;
 }
 
 /* Goes through the rows of cells across the sun's way, beginning with those next to the sun. `top`
