@@ -155,7 +155,8 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
  */
 void refine_count(yb_frame_t *frame, const refine_view_t *whole);
 
-/* Notes in frame->rim which base triangles have an edge on the frame whose wall shows its outside. */
+/* Notes in frame->rim which base triangles have an edge on the frame whose wall shows its outside.
+ */
 void walls_begin(yb_frame_t *frame);
 
 /* Draws the walls below the frame. */

@@ -33,10 +33,10 @@ typedef struct {
     int32_t x, y, z;
 } normal_t;
 
-/* A number's size, but that a negative one counts as one less: for that there is one instruction. */
+/* The size of a number below 2^30, but that a negative one counts as one less: one instruction. */
 static inline uint32_t size_of(int32_t a)
 {
-    return (uint32_t)(a < 0 ? ~a : a);
+    return (uint32_t)(a ^ a >> 30);
 }
 
 /* Brings the greatest of three numbers to 13 bits. */
