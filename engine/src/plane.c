@@ -77,8 +77,7 @@ static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int
             const uint16_t nearer = depth_of(near);
             if (nearer > depth[x]) {
                 depth[x] = nearer;
-                row[2 * x] = (uint8_t)(pixel >> 8);
-                row[2 * x + 1] = (uint8_t)pixel;
+                put_rgb565(row, x, pixel);
             }
         }
         return;
@@ -87,7 +86,7 @@ static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int
         const uint16_t nearer = depth_of(near);
         if (nearer > depth[x]) {
             depth[x] = nearer;
-            put_pixel(raster, row, x, pixel);
+            put_pixel(raster->screen->format, row, x, pixel);
         }
     }
 }

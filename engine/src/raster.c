@@ -78,26 +78,22 @@ static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, i
     if (format == YB_GREY4) {
         for (; depth < depth_end; depth++, x++) {
             if (near > *depth) {
-                uint8_t *at = &row[x >> 1];
+                put_grey4(row, x, pixel);
                 *depth = near;
-                *at = (uint8_t)((x & 1) != 0 ? (*at & 0xf0) | pixel : (*at & 0x0f) | pixel << 4);
             }
         }
     } else if (format == YB_RGB565) {
         for (row += 2 * x; depth < depth_end; depth++, row += 2) {
             if (near > *depth) {
+                put_rgb565(row, 0, pixel);
                 *depth = near;
-                row[0] = (uint8_t)(pixel >> 8);
-                row[1] = (uint8_t)pixel;
             }
         }
     } else {
         for (; depth < depth_end; depth++, x++) {
             if (near > *depth) {
-                const uint8_t bit = (uint8_t)(0x80 >> (x & 7));
-                uint8_t *at = &row[x >> 3];
+                put_mono(row, x, pixel);
                 *depth = near;
-                *at = (uint8_t)((*at & ~bit) | (pixel & bit));
             }
         }
     }

@@ -26,20 +26,36 @@ static inline uint16_t in_row(const raster_t *raster, uint16_t pixel, int32_t y)
     return yb_rom_u8(&rows_dither[pixel + (pixel >> 3)][y & 3]);
 }
 
-/* `pixel` as of in_row. */
-static inline void put_pixel(const raster_t *raster, uint8_t *row, int32_t x, uint16_t pixel)
+static inline void put_grey4(uint8_t *row, int32_t x, uint16_t pixel)
 {
-    if (raster->screen->format == YB_RGB565) {
-        row[2 * x] = (uint8_t)(pixel >> 8);
-        row[2 * x + 1] = (uint8_t)pixel;
-    } else if (raster->screen->format == YB_MONO) {
-        uint8_t bit = (uint8_t)(0x80 >> (x & 7));
-        row[x >> 3] = (uint8_t)((row[x >> 3] & ~bit) | (pixel & bit));
-    } else if ((x & 1) == 0) {
+    if ((x & 1) == 0)
         row[x >> 1] = (uint8_t)((row[x >> 1] & 0x0f) | pixel << 4);
-    } else {
+    else
         row[x >> 1] = (uint8_t)((row[x >> 1] & 0xf0) | pixel);
-    }
+}
+
+static inline void put_rgb565(uint8_t *row, int32_t x, uint16_t pixel)
+{
+    row[2 * x] = (uint8_t)(pixel >> 8);
+    row[2 * x + 1] = (uint8_t)pixel;
+}
+
+/* `pixel` as of in_row. */
+static inline void put_mono(uint8_t *row, int32_t x, uint16_t pixel)
+{
+    const uint8_t bit = (uint8_t)(0x80 >> (x & 7));
+    uint8_t *at = &row[x >> 3];
+    *at = (uint8_t)((*at & ~bit) | (pixel & bit));
+}
+
+static inline void put_pixel(yb_format_t format, uint8_t *row, int32_t x, uint16_t pixel)
+{
+    if (format == YB_RGB565)
+        put_rgb565(row, x, pixel);
+    else if (format == YB_MONO)
+        put_mono(row, x, pixel);
+    else
+        put_grey4(row, x, pixel);
 }
 
 /* --- Rows ------------------------------------------------------------------------------------- */
@@ -116,7 +132,7 @@ static inline void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *ro
             while (cut->interval > 0 && off >= cutter->half_interval)
                 off -= 2 * cutter->half_interval;
             depth[x] = nearer;
-            put_pixel(raster, row, x,
+            put_pixel(raster->screen->format, row, x,
                       fix_abs(off) <= cutter->half ? line
                       : off < 0                    ? below
                                                    : above);
