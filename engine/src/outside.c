@@ -244,8 +244,12 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
  * than that side would be there. A refine_edge is at most 6.8 % longer than it should be, and this
  * side at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
  */
-static int32_t whole_stray(const yb_frame_t *frame, const yb_point_t *const p[3], uint32_t near,
-                           int *halvings)
+typedef struct {
+    int32_t stray;
+    int often; /* how often an edge may be halved */
+} reach_t;
+
+static reach_t whole_reach(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t near)
 {
     const yb_map_t *map = frame->map;
     uint32_t square = 0;
@@ -258,15 +262,37 @@ static int32_t whole_stray(const yb_frame_t *frame, const yb_point_t *const p[3]
         square = other > square ? other : square;
         length = (uint32_t)fix_max((int32_t)length, fix_length(dx, dy));
     }
-    int class = relief_square_class(square);
-    int often = 0;
-    for (uint32_t size = ((length + (length >> 3)) >> 1) * near; size > frame->longest; size >>= 1)
-        often++;
-    *halvings = often;
-    if (often == 0)
-        return 0;
-    const relief_bound_t bound = {0, class};
-    return refine_bulge(map, p) + 17 + (relief_reach(map, &bound, class + 4 - 4 * often) >> 1);
+    reach_t reach = {0, 0};
+    uint32_t size = ((length + (length >> 3)) >> 1) * (uint32_t)near;
+    for (; size > frame->longest; size >>= 1)
+        reach.often++;
+    if (reach.often > 0) {
+        const relief_bound_t bound = {0, relief_square_class(square)};
+        int32_t noise = relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often);
+        reach.stray = refine_bulge(map, p) + 17 + (noise >> 1);
+    }
+    reach.stray = stray_in_water(frame, p, reach.stray);
+    return reach;
+}
+
+/* The rows that a base triangle may touch, whatever it becomes. False: it is not on the screen. */
+static bool find_bins(const yb_frame_t *frame, const refine_view_t *whole,
+                      const yb_point_t *const p[3], int32_t *first, int32_t *last)
+{
+    box_t box;
+    if (find_box(p, 3, &box)) {
+        /* With the spare of a box nothing comes nearer by more than an eighth: 8/7. */
+        const int32_t near = fix_min(box.near + box.near / 7 + 1, 65535);
+        const reach_t reach = whole_reach(frame, p, near);
+        spare_t spare;
+        if (find_part_spare(frame, reach.often, reach.stray, box.near, &spare)) {
+            widen_box(&spare, &box);
+            *first = fix_clamp(box.top >> 4, 0, *last);
+            *last = fix_clamp(box.bottom >> 4, 0, *last);
+            return !box_misses(whole, &box);
+        }
+    }
+    return !misses_planes(frame, whole, p, 3, whole_reach(frame, p, 65535).stray);
 }
 
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
@@ -275,31 +301,11 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     const yb_point_t *const p[3] = {&root[0], &root[1], &root[2]};
     for (int i = 0; i < 3; i++)
         camera_root(frame, frame->map->triangle[triangle][i], &root[i]);
-    int32_t last = frame->screen.height - 1;
     int32_t first = 0;
-    box_t box;
-    spare_t spare;
-    const bool seen = find_box(p, 3, &box);
-    /* Nothing of what the box's spare is for comes nearer by more than an eighth: 8/7. */
-    const uint32_t near = seen ? (uint32_t)fix_min(box.near + box.near / 7 + 1, 65535) : 65535;
-    int often;
-    int32_t stray = stray_in_water(frame, p, whole_stray(frame, p, near, &often));
-    if (seen && find_part_spare(frame, often, stray, box.near, &spare)) {
-        widen_box(&spare, &box);
-        if (box_misses(whole, &box)) {
-            first = last;
-            last = 0;
-        } else {
-            first = fix_clamp(box.top >> 4, 0, last);
-            last = fix_clamp(box.bottom >> 4, 0, last);
-        }
-    } else {
-        if (seen) /* some of it may come nearer than that */
-            stray = stray_in_water(frame, p, whole_stray(frame, p, 65535, &often));
-        if (misses_planes(frame, whole, p, 3, stray)) {
-            first = last;
-            last = 0;
-        }
+    int32_t last = frame->screen.height - 1;
+    if (!find_bins(frame, whole, p, &first, &last)) {
+        first = frame->screen.height - 1;
+        last = 0;
     }
     frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
 }

@@ -222,6 +222,7 @@ static void fill_tables(yb_map_t *map, int32_t amplitude, int32_t hurst_q8)
     }
 }
 
+/* How far refinement moves any point, at most: here, once, because every frame asks. */
 static int32_t most_stray(const yb_map_t *map)
 {
     int32_t farthest = 0;
