@@ -7,6 +7,7 @@
 #include "fix.h"
 #include "raster.h"
 #include "rng.h"
+#include "rows.h"
 
 enum {
     WIDTH = 64,
@@ -239,6 +240,19 @@ static void sides_through_centres(void **state)
             for (int i = 0; i <= wide; i++) /* from the upright side up to the slanted one */
                 for (int j = 0; j < high; j++)
                     assert_int_equal(pixel_at(&page, i, j), i * high < j * wide ? 7 : 0);
+        }
+    }
+}
+
+/* Over 255 sixteenths of a row a slope of 20 bits is off by 2 * 255 / 2^20: 1/33,000 pixel. */
+static void slopes_are_nearly_exact(void **state)
+{
+    (void)state;
+    for (int32_t dy = 1; dy <= RASTER_HIGH_Q4; dy++) {
+        for (int32_t dx = -2 * RASTER_WIDE_Q4; dx <= 2 * RASTER_WIDE_Q4; dx++) {
+            const double exact = (double)dx * (1 << ROWS_FRACTION) / dy;
+            CHECK(fabs(rows_small_slope(dx, dy) - exact) < 2, "%d over %d: off by %g", (int)dx,
+                  (int)dy, rows_small_slope(dx, dy) - exact);
         }
     }
 }
@@ -555,6 +569,7 @@ int main(void)
         cmocka_unit_test(back_faces_and_flat_ones_draw_nothing),
         cmocka_unit_test(edges_through_centres),
         cmocka_unit_test(sides_through_centres),
+        cmocka_unit_test(slopes_are_nearly_exact),
         cmocka_unit_test(both_ways_are_the_same),
         cmocka_unit_test(the_nearest_wins_in_any_order),
         cmocka_unit_test(depth_is_a_plane),
