@@ -20,14 +20,14 @@
 #define YB_VIEWER_HEIGHT 64
 #define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
 /* Memory for the rows that are drawn at once, beside what the map leaves: 320 bytes a row. More are
- * faster. With memory for eight, a map of 100 bytes gets 13 to 17 of them in all.
+ * faster. With memory for eight, the maps of the gallery get 10 to 18 of them in all.
  */
 #define YB_VIEWER_ROW_BYTES (2 * YB_VIEWER_WIDTH + YB_VIEWER_PITCH)
 #ifndef YB_VIEWER_BAND_BYTES
 #define YB_VIEWER_BAND_BYTES (8 * YB_VIEWER_ROW_BYTES)
 #endif
-#if YB_VIEWER_BAND_BYTES < YB_VIEWER_ROW_BYTES
-#error "YB_VIEWER_BAND_BYTES: 320 or more"
+#if YB_VIEWER_BAND_BYTES < 2 * YB_VIEWER_ROW_BYTES
+#error "YB_VIEWER_BAND_BYTES: 640 or more, a row of it for what alignment takes"
 #endif
 
 /* From one frame of a turn to the next: 256 frames go round the mountain. */
