@@ -26,7 +26,7 @@ enum part {
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
 {
     /* All but the arrays, which may be large and are written before they are read. */
-    memset(map, 0, offsetof(yb_map_t, triangle));
+    memset(map, 0, offsetof(yb_map_t, vertex));
     memset(load, 0, offsetof(yb_load_t, contour));
     map->detail = true;
     load->map = map;

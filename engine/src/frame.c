@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "camera.h"
+#include "cells.h"
 #include "colour.h"
 #include "fix.h"
 #include "refine.h"
@@ -57,6 +58,15 @@ static void begin_lines(yb_frame_t *frame, int32_t stray)
     frame->contour_inverse = ((uint32_t)1 << 20) / (uint32_t)interval;
 }
 
+/* Moves the triangles to behind the last vertex. */
+static void pack(yb_map_t *map)
+{
+    if (!map->packed)
+        memmove(&map->vertex[map->vertex_count], map->triangle,
+                map->triangle_count * sizeof *map->triangle);
+    map->packed = true;
+}
+
 /* The first place from an offset on where a frame may begin. */
 static size_t aligned(const yb_map_t *map, size_t offset)
 {
@@ -68,21 +78,25 @@ static size_t aligned(const yb_map_t *map, size_t offset)
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band)
 {
     const size_t vertices = map->vertex_count;
+    const size_t triangles = map->triangle_count;
     const size_t at_frame =
-        aligned(map, offsetof(yb_map_t, vertex) + vertices * sizeof(yb_vertex_t));
-    const size_t at_band =
-        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t));
+        aligned(map, offsetof(yb_map_t, vertex) + vertices * sizeof *map->vertex +
+                         triangles * sizeof *map->triangle);
+    const size_t at_band = aligned(map, at_frame + offsetof(yb_frame_t, seen) +
+                                            vertices * sizeof(yb_seen_t) + triangles);
     const size_t pitch = yb_screen_pitch(screen);
-    const size_t row = screen->width * sizeof *band->depth + pitch;
+    const size_t cells = screen->width * sizeof *band->cells;
+    const size_t row = cells + (cells_have_colours(screen) ? pitch : 0);
     if (row == 0 || bytes < at_band + row)
         return NULL;
     const size_t fit = (bytes - at_band) / row;
     const size_t rows = fit < screen->height ? fit : screen->height;
     uint8_t *memory = (uint8_t *)map;
+    pack(map);
     *band = (yb_band_t){
         .rows = (uint16_t)rows,
-        .depth = (uint16_t *)(void *)(memory + at_band),
-        .pixels = memory + at_band + rows * screen->width * sizeof *band->depth,
+        .cells = (uint16_t *)(void *)(memory + at_band),
+        .pixels = memory + at_band + (row > cells ? rows * cells : 0),
         .pitch = pitch,
     };
     return (yb_frame_t *)(void *)(memory + at_frame);
@@ -94,6 +108,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->map = map;
     frame->view = *view;
     frame->screen = *screen;
+    frame->bins = (uint8_t *)&frame->seen[map->vertex_count];
     camera_clamp(frame);
     int32_t stray = farthest_stray(frame);
     camera_begin(frame, stray);
@@ -105,15 +120,15 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
         frame->row_shift++;
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
+    walls_begin(frame);
     for (yb_triangle_t t = 0; t < map->triangle_count; t++)
         refine_bin(frame, &whole, t);
-    walls_begin(frame);
     bound_leaves(frame, &whole);
 }
 
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
 {
-    raster_t raster = {
+    const raster_t raster = {
         .screen = &frame->screen,
         .band = band,
         .first_row = fix_min(band->y, frame->screen.height),
@@ -121,14 +136,15 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
     };
     if (raster.first_row >= raster.end_row)
         return;
+    for (int32_t y = raster.first_row; y < raster.end_row; y++)
+        cells_clear(&raster, y, colour_sky(frame, y));
     refine_view_t view;
     refine_see(frame, raster.first_row, raster.end_row, &view);
-    raster_clear(&raster);
-    for (int32_t y = raster.first_row; y < raster.end_row; y++)
-        raster_row(&raster, y, colour_sky(frame, y));
     refine_draw(frame, &view, &raster);
     if (frame->view.walls)
         walls_draw(frame, &view, &raster);
+    for (int32_t y = raster.first_row; y < raster.end_row; y++)
+        cells_show(&raster, y);
 }
 
 void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)

@@ -50,7 +50,7 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int32_t stray)
 {
-    camera_point_t at[4];
+    camera_point_t at[REFINE_POINTS];
     for (int k = 0; k < count; k++)
         camera_view(frame, p[k]->place, p[k]->top_q8, &at[k]);
     for (int i = 0; i < REFINE_PLANES; i++) {
@@ -275,12 +275,14 @@ static reach_t whole_reach(const yb_frame_t *frame, const yb_point_t *const p[3]
     return reach;
 }
 
-/* The rows that a base triangle may touch, whatever it becomes. False: it is not on the screen. */
+/* The rows that a base triangle, whatever it becomes, and what else stands at some points may
+ * touch. False: it is not on the screen.
+ */
 static bool find_bins(const yb_frame_t *frame, const refine_view_t *whole,
-                      const yb_point_t *const p[3], int32_t *first, int32_t *last)
+                      const yb_point_t *const p[], int count, int32_t *first, int32_t *last)
 {
     box_t box;
-    if (find_box(p, 3, &box)) {
+    if (find_box(p, count, &box)) {
         /* With the spare of a box nothing comes nearer by more than an eighth: 8/7. */
         const int32_t near = fix_min(box.near + box.near / 7 + 1, 65535);
         const reach_t reach = whole_reach(frame, p, near);
@@ -292,20 +294,26 @@ static bool find_bins(const yb_frame_t *frame, const refine_view_t *whole,
             return !box_misses(whole, &box);
         }
     }
-    return !misses_planes(frame, whole, p, 3, whole_reach(frame, p, 65535).stray);
+    return !misses_planes(frame, whole, p, count, whole_reach(frame, p, 65535).stray);
 }
 
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
-    yb_point_t root[3];
-    const yb_point_t *const p[3] = {&root[0], &root[1], &root[2]};
-    for (int i = 0; i < 3; i++)
-        camera_root(frame, frame->map->triangle[triangle][i], &root[i]);
+    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    const bool walls = walls_are_below(frame, triangle);
+    yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
+    const yb_point_t *const p[REFINE_POINTS] = {&root[0], &root[1], &root[2],
+                                                &root[3], &root[4], &root[5]};
+    for (int i = 0; i < 3; i++) {
+        camera_root(frame, corner[i], &root[i]);
+        if (walls)
+            camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
+    }
     int32_t first = 0;
     int32_t last = frame->screen.height - 1;
-    if (!find_bins(frame, whole, p, &first, &last)) {
+    if (!find_bins(frame, whole, p, walls ? REFINE_POINTS : 3, &first, &last)) {
         first = frame->screen.height - 1;
         last = 0;
     }
-    frame->rows[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
+    frame->bins[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
 }

@@ -67,27 +67,26 @@ static void plane_start(plane_t *plane, const yb_spot_t *const p[3], const int32
                     (uint32_t)plane->along_y * (uint32_t)(y - y0);
 }
 
-/* The pixels from x up to end of a row. */
-static void draw_span(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t x, int32_t end,
+/* The cells from x up to end of a row. */
+static void draw_span(bool colours, const cells_row_t *row, int32_t x, int32_t end,
                       const plane_t *plane, uint16_t pixel)
 {
     uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
-    if (raster->screen->format == YB_RGB565) { /* large screens have more large triangles */
-        for (; x < end; x++, near += (uint32_t)plane->along_x) {
-            const uint16_t nearer = depth_of(near);
-            if (nearer > depth[x]) {
-                depth[x] = nearer;
-                put_rgb565(row, x, pixel);
-            }
-        }
-        return;
-    }
-    for (; x < end; x++, near += (uint32_t)plane->along_x) {
-        const uint16_t nearer = depth_of(near);
-        if (nearer > depth[x]) {
-            depth[x] = nearer;
-            put_pixel(raster->screen->format, row, x, pixel);
-        }
+    for (; x < end; x++, near += (uint32_t)plane->along_x)
+        cells_put(colours, cells_from(row, x), cells_depth(colours, depth_of(near)), pixel);
+}
+
+/* The same, with lines. */
+static void cut_span(bool colours, const cells_row_t *row, int32_t x, int32_t end,
+                     const plane_t *plane, const cutter_t *cutter)
+{
+    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
+    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
+    for (; x < end; x++) {
+        cells_put(colours, cells_from(row, x), cells_depth(colours, depth_of(near)),
+                  cut_at(cutter, value));
+        near += (uint32_t)plane->along_x;
+        value += (uint32_t)cutter->plane.along_x;
     }
 }
 
@@ -130,33 +129,30 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     int32_t end_y = fix_min(shape->bottom, raster->end_row);
     if (y >= end_y)
         return;
-    int32_t width = raster->screen->width;
-    int32_t line = y - raster->first_row;
-    uint16_t *depth = raster->band->depth + line * width;
-    uint8_t *row = raster->band->pixels + (size_t)line * raster->band->pitch;
+    const bool colours = cells_have_colours(raster->screen);
+    const int32_t width = raster->screen->width;
     plane_t plane = {(uint32_t)mean_near(p) << 14, 0, 0};
     const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
     if (look == RASTER_FRONT)
         plane_start(&plane, p, near, y);
     cutter_t cutter = {.cut = NULL};
-    bool cuts = cut != NULL && rows_start_cut(&cutter, cut, shape, y);
+    const bool cuts = cut != NULL && rows_start_cut(&cutter, cut, shape, y);
     const int32_t left_end = raster_pixel(p[1]->y_q4);
     const int32_t right_end = raster_pixel(p[2]->y_q4);
     long_side_t left = long_side(p[y < left_end ? 0 : 1], p[y < left_end ? 1 : 2], y);
     long_side_t right = long_side(p[y < right_end ? 0 : 2], p[y < right_end ? 2 : 1], y);
-    for (;;) {
+    for (cells_row_t row = cells_row(raster, y);; cells_next(raster, &row)) {
         int32_t x = fix_max((int32_t)(left.at >> ROWS_PIXEL), 0);
         int32_t end = fix_min((int32_t)(right.at >> ROWS_PIXEL), width);
-        if (cuts)
-            draw_cut(raster, depth, row, y, x, end, &plane, &cutter);
-        else
-            draw_span(raster, depth, row, x, end, &plane, in_row(raster, pixel, y));
+        if (cuts) {
+            cut_span(colours, &row, x, end, &plane, &cutter);
+            cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
+        } else {
+            draw_span(colours, &row, x, end, &plane, pixel);
+        }
         if (++y == end_y)
             return;
         plane.at_q14 += (uint32_t)plane.along_y;
-        cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
-        depth += width;
-        row += raster->band->pitch;
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)

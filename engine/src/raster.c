@@ -1,46 +1,8 @@
 #include "raster.h"
 
-#include <string.h>
-
+#include "cells.h"
 #include "fix.h"
 #include "rows.h"
-
-const uint8_t rows_dither[17][4] YB_ROM = {
-    {0x00, 0x00, 0x00, 0x00}, {0x88, 0x00, 0x00, 0x00}, {0x88, 0x00, 0x22, 0x00},
-    {0xaa, 0x00, 0x22, 0x00}, {0xaa, 0x00, 0xaa, 0x00}, {0xaa, 0x44, 0xaa, 0x00},
-    {0xaa, 0x44, 0xaa, 0x11}, {0xaa, 0x55, 0xaa, 0x11}, {0xaa, 0x55, 0xaa, 0x55},
-    {0xee, 0x55, 0xaa, 0x55}, {0xee, 0x55, 0xbb, 0x55}, {0xff, 0x55, 0xbb, 0x55},
-    {0xff, 0x55, 0xff, 0x55}, {0xff, 0xdd, 0xff, 0x55}, {0xff, 0xdd, 0xff, 0x77},
-    {0xff, 0xff, 0xff, 0x77}, {0xff, 0xff, 0xff, 0xff},
-};
-
-void raster_clear(const raster_t *raster)
-{
-    size_t rows = (size_t)(raster->end_row - raster->first_row);
-    memset(raster->band->depth, 0, rows * raster->screen->width * sizeof *raster->band->depth);
-}
-
-void raster_row(const raster_t *raster, int32_t y, uint16_t pixel)
-{
-    const yb_screen_t *screen = raster->screen;
-    uint8_t *row = raster->band->pixels + (size_t)(y - raster->first_row) * raster->band->pitch;
-    if (screen->format != YB_RGB565) {
-        memset(row, screen->format == YB_MONO ? in_row(raster, pixel, y) : pixel * 17,
-               yb_screen_pitch(screen));
-        return;
-    }
-    const uint8_t high = (uint8_t)(pixel >> 8);
-    const uint8_t low = (uint8_t)pixel;
-    uint8_t *const end = row + 2 * (size_t)screen->width;
-    for (; end - row >= 8; row += 8) {
-        row[0] = row[2] = row[4] = row[6] = high;
-        row[1] = row[3] = row[5] = row[7] = low;
-    }
-    for (; row != end; row += 2) {
-        row[0] = high;
-        row[1] = low;
-    }
-}
 
 /* --- Small triangles -------------------------------------------------------------------------- */
 
@@ -69,38 +31,8 @@ static inline int32_t crossing_of(const side_t *side)
     return (int32_t)side->at >> ROWS_PIXEL;
 }
 
-/* The pixels from x up to end of a row. */
-static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, int32_t x,
-                            int32_t end, uint16_t near, uint16_t pixel)
-{
-    uint16_t *const depth_end = depth + end;
-    depth += x;
-    if (format == YB_GREY4) {
-        for (; depth < depth_end; depth++, x++) {
-            if (near > *depth) {
-                put_grey4(row, x, pixel);
-                *depth = near;
-            }
-        }
-    } else if (format == YB_RGB565) {
-        for (row += 2 * x; depth < depth_end; depth++, row += 2) {
-            if (near > *depth) {
-                put_rgb565(row, 0, pixel);
-                *depth = near;
-            }
-        }
-    } else {
-        for (; depth < depth_end; depth++, x++) {
-            if (near > *depth) {
-                put_mono(row, x, pixel);
-                *depth = near;
-            }
-        }
-    }
-}
-
-/* Where speed counts more than size, each format, and lines, has a copy of its own: branching on
- * that would be a seventh of what a triangle costs.
+/* Where speed counts more than size, each size of cells, and lines, has a copy of its own:
+ * branching on that would be a seventh of what a triangle costs.
  */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define COPIED static inline __attribute__((always_inline))
@@ -108,53 +40,61 @@ static inline void fill_row(yb_format_t format, uint16_t *depth, uint8_t *row, i
 #define COPIED static
 #endif
 
-/* Draws a small triangle. */
-COPIED void draw_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
-                       yb_format_t format, cutter_t *cutter)
+/* The cells from x up to end of a row. */
+COPIED void fill_row(bool colours, const cells_row_t *row, int32_t x, int32_t end, uint16_t depth,
+                     uint16_t pixel)
+{
+    cells_row_t at = cells_from(row, x);
+    for (const uint16_t *const to = row->cell + end; at.cell < to; at.cell++, at.pixel += 2)
+        cells_put(colours, at, depth, pixel);
+}
+
+/* The same, with lines. */
+COPIED void cut_row(bool colours, const cells_row_t *row, int32_t x, int32_t end, uint16_t depth,
+                    const cutter_t *cutter)
+{
+    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
+    for (; x < end; x++, value += (uint32_t)cutter->plane.along_x)
+        cells_put(colours, cells_from(row, x), depth, cut_at(cutter, value));
+}
+
+/* Draws a small triangle: in one pixel value, or with lines. */
+COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
+                       uint16_t pixel, cutter_t *cutter)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];
     const yb_spot_t *c = shape->p[2];
     int32_t y = fix_max(shape->top, raster->first_row);
     const int32_t end = fix_min(shape->bottom, raster->end_row);
-    if (y >= end)
-        return;
-    const plane_t plane = {(uint32_t)mean_near(shape->p) << 14, 0, 0};
+    const uint16_t depth = cells_depth(colours, mean_near(shape->p));
     /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
     const int32_t left_end = raster_pixel(b->y_q4);
     const int32_t right_end = raster_pixel(c->y_q4);
-    const int32_t base = a->x_q4 >> 7 << 3; /* whole bytes of pixels */
+    const int32_t base = a->x_q4 >> 4;
     const int32_t centre_q4 = base * 16 - 8;
     side_t left = begin_side(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
     side_t right = begin_side(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
-    const size_t width = raster->screen->width;
-    const size_t pitch = raster->band->pitch;
-    uint16_t *depth = raster->band->depth + (size_t)(y - raster->first_row) * width;
-    uint8_t *row = raster->band->pixels + (size_t)(y - raster->first_row) * pitch;
-    if (cutter == NULL) {
-        depth += base;
-        row += format == YB_GREY4 ? base >> 1 : format == YB_RGB565 ? base << 1 : base >> 3;
-    }
+    cells_row_t row = cells_row(raster, y);
+    row = cells_from(&row, base);
+    if (cutter != NULL)
+        cutter->plane.at_q14 += (uint32_t)cutter->plane.along_x * (uint32_t)base;
     for (;;) {
-        if (cutter != NULL)
-            draw_cut(raster, depth, row, y, base + crossing_of(&left), base + crossing_of(&right),
-                     &plane, cutter);
-        else
-            fill_row(format, depth, row, crossing_of(&left), crossing_of(&right),
-                     (uint16_t)(plane.at_q14 >> 14),
-                     format == YB_MONO ? in_row(raster, pixel, y) : pixel);
+        if (cutter != NULL) {
+            cut_row(colours, &row, crossing_of(&left), crossing_of(&right), depth, cutter);
+            cutter->plane.at_q14 += (uint32_t)cutter->plane.along_y;
+        } else {
+            fill_row(colours, &row, crossing_of(&left), crossing_of(&right), depth, pixel);
+        }
         if (++y == end)
             return;
-        depth += width;
-        row += pitch;
+        cells_next(raster, &row);
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)
             left = begin_side(b, c, centre_q4, y);
         if (y == right_end)
             right = begin_side(c, b, centre_q4, y);
-        if (cutter != NULL)
-            cutter->plane.at_q14 += (uint32_t)cutter->plane.along_y;
     }
 }
 
@@ -164,21 +104,20 @@ static bool draw_lines(const raster_t *raster, const raster_shape_t *shape, cons
     cutter_t cutter;
     if (!rows_start_cut(&cutter, cut, shape, fix_max(shape->top, raster->first_row)))
         return false;
-    draw_level(raster, shape, 0, raster->screen->format, &cutter);
+    draw_level(cells_have_colours(raster->screen), raster, shape, 0, &cutter);
     return true;
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
-    if (cut != NULL && draw_lines(raster, shape, cut))
+    if (shape->top >= raster->end_row || shape->bottom <= raster->first_row ||
+        (cut != NULL && draw_lines(raster, shape, cut)))
         return;
-    if (raster->screen->format == YB_GREY4)
-        draw_level(raster, shape, pixel, YB_GREY4, NULL);
-    else if (raster->screen->format == YB_RGB565)
-        draw_level(raster, shape, pixel, YB_RGB565, NULL);
+    if (cells_have_colours(raster->screen))
+        draw_level(true, raster, shape, pixel, NULL);
     else
-        draw_level(raster, shape, pixel, YB_MONO, NULL);
+        draw_level(false, raster, shape, pixel, NULL);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */

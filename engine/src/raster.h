@@ -1,4 +1,4 @@
-/* Triangles to pixels, with a depth per pixel. */
+/* Triangles to cells, of which each has a depth and a pixel value. */
 #ifndef YB_RASTER_H
 #define YB_RASTER_H
 
@@ -37,12 +37,6 @@ typedef struct {
     yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
     void *context;
 } raster_t;
-
-/* Clears the band's depths. */
-void raster_clear(const raster_t *raster);
-
-/* Fills a row of the band, y counted on the screen, with one pixel value. */
-void raster_row(const raster_t *raster, int32_t y, uint16_t pixel);
 
 /* First pixel whose centre is at or right of (below) a coordinate. */
 static inline int32_t raster_pixel(int32_t q4)

@@ -197,8 +197,9 @@ int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3])
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part)
 {
+    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
     for (int i = 0; i < 3; i++) {
-        camera_root(frame, frame->map->triangle[triangle][i], &frame->root[i]);
+        camera_root(frame, corner[i], &frame->root[i]);
         set_out(view, &frame->root[i].spot);
         part->point[i] = &frame->root[i];
     }
@@ -454,18 +455,15 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
     } while (refine_next(frame->level, &top, &part));
 }
 
-/* Those base triangles that may touch the rows from first up to end. One that is not on the screen
- * has its last bin before the first.
- */
+/* Those base triangles that may touch the rows from first_row up to end_row. */
 static void draw_roots(const walk_t *walk, int32_t first_row, int32_t end_row)
 {
     const yb_frame_t *frame = walk->frame;
-    const int first_bin = (int)(first_row >> frame->row_shift);
-    const int last_bin = (int)((end_row - 1) >> frame->row_shift);
+    const int first_bin = refine_bin_of(frame, first_row);
+    const int last_bin = refine_bin_of(frame, end_row - 1);
     const yb_triangle_t count = frame->map->triangle_count;
     for (yb_triangle_t t = 0; t < count; t++) {
-        const int bins = frame->rows[t];
-        if (bins >> 4 <= last_bin && (bins & 15) >= first_bin && bins >> 4 <= (bins & 15))
+        if (refine_touches(frame, t, first_bin, last_bin))
             draw_root(walk, t);
     }
 }

@@ -75,8 +75,12 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
 void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
                    const yb_point_t *b, yb_edge_t edge, yb_point_t *middle);
 
-/* Is nothing of some points, and of what lies between them, in the view, when each may move by
- * `stray` in height?
+enum {
+    REFINE_POINTS = 6
+};
+
+/* Is nothing of up to REFINE_POINTS points, and of what lies between them, in the view, when each
+ * may move by `stray` in height?
  */
 bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
                    int count, int32_t stray);
@@ -145,8 +149,25 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
 /* Takes up what was laid aside last, between `bottom` and *top; false: there is nothing left. */
 bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part);
 
-/* The bins of rows that a base triangle may touch: frame->rows. `whole` is all rows. */
+/* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is
+ * all rows.
+ */
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle);
+
+static inline int refine_bin_of(const yb_frame_t *frame, int32_t row)
+{
+    return (int)(row >> frame->row_shift);
+}
+
+/* May a base triangle touch some bins of rows? One that is not on the screen has its last bin
+ * before the first.
+ */
+static inline bool refine_touches(const yb_frame_t *frame, yb_triangle_t triangle, int first_bin,
+                                  int last_bin)
+{
+    const int bins = frame->bins[triangle];
+    return bins >> 4 <= last_bin && (bins & 15) >= first_bin && bins >> 4 <= (bins & 15);
+}
 
 /* Refines the base triangles that may touch the rows of a raster, and draws what they become. */
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
@@ -158,6 +179,11 @@ void refine_count(yb_frame_t *frame, const refine_view_t *whole);
 /* Notes in frame->rim which base triangles have an edge on the frame whose wall shows its outside.
  */
 void walls_begin(yb_frame_t *frame);
+
+static inline bool walls_are_below(const yb_frame_t *frame, yb_triangle_t triangle)
+{
+    return (frame->rim[triangle >> 3] & 1 << (triangle & 7)) != 0;
+}
 
 /* Draws the walls below the frame. */
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);

@@ -1,62 +1,12 @@
-/* What the two ways to fill a triangle share: its sides, and the pixels between them. raster.c
- * fills small ones at one depth, fast; plane.c all others.
+/* What the two ways to fill a triangle share: its sides, and what lies between them. raster.c fills
+ * small ones at one depth, fast; plane.c all others.
  */
 #ifndef YB_ROWS_H
 #define YB_ROWS_H
 
-#include <yamabiko/rom.h>
-
+#include "cells.h"
 #include "fix.h"
 #include "raster.h"
-
-/* --- Pixels ----------------------------------------------------------------------------------- */
-
-/* rows_dither[m][y]: which of every four pixels of a row are lit at a shade that reaches m of 16,
- * the leftmost in the highest bit, twice: Bayer's order of four by four.
- */
-extern const uint8_t rows_dither[17][4] YB_ROM;
-
-/* What a pixel value is in one row: where a pixel is a bit, eight of them side by side. Shade 15 is
- * all of them.
- */
-static inline uint16_t in_row(const raster_t *raster, uint16_t pixel, int32_t y)
-{
-    if (raster->screen->format != YB_MONO)
-        return pixel;
-    return yb_rom_u8(&rows_dither[pixel + (pixel >> 3)][y & 3]);
-}
-
-static inline void put_grey4(uint8_t *row, int32_t x, uint16_t pixel)
-{
-    if ((x & 1) == 0)
-        row[x >> 1] = (uint8_t)((row[x >> 1] & 0x0f) | pixel << 4);
-    else
-        row[x >> 1] = (uint8_t)((row[x >> 1] & 0xf0) | pixel);
-}
-
-static inline void put_rgb565(uint8_t *row, int32_t x, uint16_t pixel)
-{
-    row[2 * x] = (uint8_t)(pixel >> 8);
-    row[2 * x + 1] = (uint8_t)pixel;
-}
-
-/* `pixel` as of in_row. */
-static inline void put_mono(uint8_t *row, int32_t x, uint16_t pixel)
-{
-    const uint8_t bit = (uint8_t)(0x80 >> (x & 7));
-    uint8_t *at = &row[x >> 3];
-    *at = (uint8_t)((*at & ~bit) | (pixel & bit));
-}
-
-static inline void put_pixel(yb_format_t format, uint8_t *row, int32_t x, uint16_t pixel)
-{
-    if (format == YB_RGB565)
-        put_rgb565(row, x, pixel);
-    else if (format == YB_MONO)
-        put_mono(row, x, pixel);
-    else
-        put_grey4(row, x, pixel);
-}
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
@@ -96,50 +46,31 @@ static inline uint16_t depth_of(uint32_t near_q14)
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
-/* A triangle's cut, as it goes from row to row. */
+/* A triangle's cut, as it goes from row to row: what lies below and above a line, and on it, as
+ * pixel values or, where all of the triangle has one depth, cells.
+ */
 typedef struct {
+    plane_t plane;         /* of the value, less that of a line */
+    int32_t half;          /* of a line's width in value, and of the interval, 14 fractional bits */
+    int32_t half_interval; /* 0: there is one line only */
     const raster_cut_t *cut;
-    plane_t plane;
-    int32_t half; /* of a line's width in value, and of the interval, 14 fractional bits */
-    int32_t half_interval;
 } cutter_t;
 
 /* From row y on. False: the lines would lie so close together that nothing else would be left. */
 bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
                     int32_t y);
 
-/* The pixels from x up to end of row y, with lines, where `plane`, the depth, is nearer than what
- * is there. Values are below 2^16, and the interval is: within 2^30.
- */
-static inline void draw_cut(const raster_t *raster, uint16_t *depth, uint8_t *row, int32_t y,
-                            int32_t x, int32_t end, const plane_t *plane, const cutter_t *cutter)
+/* What is seen at a value. Values are below 2^16, and the interval is: within 2^30. */
+static inline uint16_t cut_at(const cutter_t *cutter, uint32_t value)
 {
-    const raster_cut_t *cut = cutter->cut;
-    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
-    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    uint16_t below = cut->below;
-    uint16_t above = cut->above;
-    uint16_t line = cut->line;
-    if (raster->screen->format == YB_MONO) {
-        below = in_row(raster, below, y);
-        above = in_row(raster, above, y);
-        line = in_row(raster, line, y);
+    int32_t off = (int32_t)value;
+    if (cutter->half_interval > 0) {
+        while (off >= cutter->half_interval)
+            off -= 2 * cutter->half_interval;
     }
-    for (; x < end; x++) {
-        const uint16_t nearer = depth_of(near);
-        if (nearer > depth[x]) {
-            int32_t off = (int32_t)value;
-            while (cut->interval > 0 && off >= cutter->half_interval)
-                off -= 2 * cutter->half_interval;
-            depth[x] = nearer;
-            put_pixel(raster->screen->format, row, x,
-                      fix_abs(off) <= cutter->half ? line
-                      : off < 0                    ? below
-                                                   : above);
-        }
-        near += (uint32_t)plane->along_x;
-        value += (uint32_t)cutter->plane.along_x;
-    }
+    return fix_abs(off) <= cutter->half ? cutter->cut->line
+           : off < 0                    ? cutter->cut->below
+                                        : cutter->cut->above;
 }
 
 /* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */

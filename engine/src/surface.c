@@ -42,8 +42,9 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
 
 static void find_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
 {
+    const yb_index_t *at = yb_map_triangle(map, triangle);
     for (int i = 0; i < 3; i++)
-        corner[i] = &map->vertex[map->triangle[triangle][i]];
+        corner[i] = &map->vertex[at[i]];
 }
 
 static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],

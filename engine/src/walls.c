@@ -22,7 +22,7 @@ static bool is_before(uint16_t a, uint16_t b, uint16_t end, int32_t eye)
 static bool faces(const yb_frame_t *frame, yb_triangle_t triangle, int which)
 {
     const yb_map_t *map = frame->map;
-    const yb_index_t *corner = map->triangle[triangle];
+    const yb_index_t *corner = yb_map_triangle(map, triangle);
     const yb_vertex_t *a = &map->vertex[corner[which]];
     const yb_vertex_t *b = &map->vertex[corner[which == 2 ? 0 : which + 1]];
     const int32_t *eye = frame->view.eye_q8;
@@ -81,7 +81,7 @@ static void draw_wall(yb_frame_t *frame, const raster_t *raster, const wall_t *w
  * end, and of the edges to them, the last is the one in hand.
  */
 static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                      yb_part_t *part, int which)
+                      const yb_part_t *part, int which)
 {
     yb_level_t *level = frame->level;
     const yb_level_t *last = level + YB_MAX_LEVELS - 1;
@@ -119,31 +119,19 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     }
 }
 
-/* Does all that stands upright go down on the screen from top to foot? Straight below and above the
- * eye it does not: then these places, focal * up_z / |depth_z| from the middle, are not on it.
- */
-static bool all_hangs(const yb_frame_t *frame)
-{
-    return frame->focal_q4 * frame->up_z > frame->screen.height * 8 * fix_abs(frame->depth_z);
-}
-
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
-    const yb_map_t *map = frame->map;
-    /* Then no wall is seen above the rows of its triangle, if that is seen at all. */
-    const int32_t last_bin = all_hangs(frame) ? (raster->end_row - 1) >> frame->row_shift : 15;
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        if ((frame->rim[t >> 3] & 1 << (t & 7)) == 0)
+    const int first_bin = refine_bin_of(frame, raster->first_row);
+    const int last_bin = refine_bin_of(frame, raster->end_row - 1);
+    const yb_triangle_t count = frame->map->triangle_count;
+    for (yb_triangle_t t = 0; t < count; t++) {
+        if (!walls_are_below(frame, t) || !refine_touches(frame, t, first_bin, last_bin))
             continue;
-        const int bins = frame->rows[t];
-        if (bins >> 4 > last_bin && bins >> 4 <= (bins & 15))
-            continue;
+        yb_part_t part;
+        refine_root(frame, view, t, &part);
         for (int i = 0; i < 3; i++) {
-            if (!faces(frame, t, i))
-                continue;
-            yb_part_t part;
-            refine_root(frame, view, t, &part);
-            draw_edge(frame, view, raster, &part, i);
+            if (faces(frame, t, i))
+                draw_edge(frame, view, raster, &part, i);
         }
     }
 }

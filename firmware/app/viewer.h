@@ -19,15 +19,15 @@
 #define YB_VIEWER_WIDTH 128
 #define YB_VIEWER_HEIGHT 64
 #define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
-/* Memory for the rows that are drawn at once, beside what the map leaves: 320 bytes a row. More are
- * faster. With memory for eight, the maps of the gallery get 10 to 18 of them in all.
+/* Memory for the rows that are drawn at once, beside what the map leaves: 256 bytes a row. More are
+ * faster. With memory for ten, most maps of the gallery get twice as many in all.
  */
-#define YB_VIEWER_ROW_BYTES (2 * YB_VIEWER_WIDTH + YB_VIEWER_PITCH)
+#define YB_VIEWER_ROW_BYTES (2 * YB_VIEWER_WIDTH)
 #ifndef YB_VIEWER_BAND_BYTES
-#define YB_VIEWER_BAND_BYTES (8 * YB_VIEWER_ROW_BYTES)
+#define YB_VIEWER_BAND_BYTES (10 * YB_VIEWER_ROW_BYTES)
 #endif
 #if YB_VIEWER_BAND_BYTES < 2 * YB_VIEWER_ROW_BYTES
-#error "YB_VIEWER_BAND_BYTES: 640 or more, a row of it for what alignment takes"
+#error "YB_VIEWER_BAND_BYTES: 512 or more, a row of it for what alignment takes"
 #endif
 
 /* From one frame of a turn to the next: 256 frames go round the mountain. */

@@ -80,11 +80,11 @@ static void with_all(yb_view_t *view)
 }
 
 static const setting_t settings[] = {
-    {"128x64-12k", {128, 64, YB_GREY4}, 8, true, YB_STANDARD_VIEWS, NULL},
-    {"128x64-12k-shadows", {128, 64, YB_GREY4}, 8, true, ORBITS, with_shadows},
-    {"128x64-12k-lines", {128, 64, YB_GREY4}, 8, true, ORBITS, with_lines},
-    {"128x64-12k-haze", {128, 64, YB_GREY4}, 8, true, ORBITS, with_haze},
-    {"128x64-12k-all", {128, 64, YB_GREY4}, 8, true, ORBITS, with_all},
+    {"128x64-12k", {128, 64, YB_GREY4}, 10, true, YB_STANDARD_VIEWS, NULL},
+    {"128x64-12k-shadows", {128, 64, YB_GREY4}, 10, true, ORBITS, with_shadows},
+    {"128x64-12k-lines", {128, 64, YB_GREY4}, 10, true, ORBITS, with_lines},
+    {"128x64-12k-haze", {128, 64, YB_GREY4}, 10, true, ORBITS, with_haze},
+    {"128x64-12k-all", {128, 64, YB_GREY4}, 10, true, ORBITS, with_all},
     {"128x64-rows1", {128, 64, YB_GREY4}, 1, false, ORBITS, NULL},
     {"128x64-rows4", {128, 64, YB_GREY4}, 4, false, ORBITS, NULL},
     {"128x64-rows8", {128, 64, YB_GREY4}, 8, false, ORBITS, NULL},
@@ -97,7 +97,8 @@ static const setting_t settings[] = {
 
 static uint32_t row_bytes(const setting_t *setting)
 {
-    return setting->screen.width * 2u + (uint32_t)yb_screen_pitch(&setting->screen);
+    const uint32_t cells = setting->screen.width * 2u;
+    return setting->screen.format == YB_RGB565 ? 2 * cells : cells; /* and as many for the pixels */
 }
 
 static uint32_t band_bytes(const setting_t *setting)
@@ -113,9 +114,11 @@ static yb_frame_t *place(const setting_t *setting, yb_band_t *band)
                               sizeof(yb_map_t) + sizeof(yb_frame_t) + band_bytes(setting),
                               &setting->screen, band);
     *band = (yb_band_t){.rows = setting->rows,
-                        .depth = (uint16_t *)(void *)memory.work.drawing.band,
+                        .cells = (uint16_t *)(void *)memory.work.drawing.band,
                         .pitch = yb_screen_pitch(&setting->screen)};
-    band->pixels = (uint8_t *)&band->depth[setting->screen.width * setting->rows];
+    band->pixels = (uint8_t *)band->cells;
+    if (setting->screen.format == YB_RGB565)
+        band->pixels += setting->screen.width * 2u * setting->rows;
     return &memory.work.drawing.frame;
 }
 

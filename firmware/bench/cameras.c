@@ -12,8 +12,8 @@ enum {
     CAMERAS = 125,
     WIDTH = 128,
     HEIGHT = 64,
-    ROW_BYTES = 2 * WIDTH + WIDTH / 2,
-    ROWS = 8 /* there is memory for these, and more where the map leaves some */
+    ROW_BYTES = 2 * WIDTH,
+    ROWS = 10 /* there is memory for these, and more where the map leaves some */
 };
 
 static struct {

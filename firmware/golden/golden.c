@@ -50,7 +50,7 @@ static union {
     uint8_t shadow[YB_SHADOW_WORK(GOLDEN_SHADOW_SIDE)];
     struct {
         yb_frame_t frame;
-        uint16_t depth[(size_t)MOST_WIDTH * GOLDEN_ROWS];
+        uint16_t cells[(size_t)MOST_WIDTH * GOLDEN_ROWS];
         uint8_t pixels[(size_t)MOST_PITCH * GOLDEN_ROWS];
     } drawing;
 } work;
@@ -141,7 +141,7 @@ static uint64_t draw(const yb_screen_t *screen, uint16_t rows, const yb_view_t *
 {
     yb_frame_t *frame = &work.drawing.frame;
     yb_band_t band = {.rows = rows,
-                      .depth = work.drawing.depth,
+                      .cells = work.drawing.cells,
                       .pixels = work.drawing.pixels,
                       .pitch = yb_screen_pitch(screen)};
     uint64_t hash = FNV_START;

@@ -49,7 +49,7 @@ static void check_mesh(void)
 
 static void draw(uint8_t choice)
 {
-    static uint16_t depth[WIDTH * HEIGHT];
+    static uint16_t cells[WIDTH * HEIGHT];
     static uint8_t pixels[WIDTH * HEIGHT * 2];
     static uint8_t again[WIDTH * HEIGHT * 2];
     yb_screen_t screen = {WIDTH, HEIGHT, (choice & 1) != 0 ? YB_GREY4 : YB_RGB565};
@@ -69,10 +69,10 @@ static void draw(uint8_t choice)
     }
     yb_frame_begin(&frame, &map, &view, &screen);
     size_t pitch = yb_screen_pitch(&screen);
-    yb_band_t band = {0, HEIGHT, depth, pixels, pitch};
+    yb_band_t band = {0, HEIGHT, cells, pixels, pitch};
     yb_frame_band(&frame, &band);
     for (uint16_t y = 0; y < HEIGHT; y = (uint16_t)(y + 5)) {
-        band = (yb_band_t){y, 5, depth, again + y * pitch, pitch};
+        band = (yb_band_t){y, 5, cells, again + y * pitch, pitch};
         yb_frame_band(&frame, &band);
     }
     if (memcmp(pixels, again, pitch * HEIGHT) != 0)

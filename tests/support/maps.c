@@ -74,7 +74,7 @@ yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan)
 
 bool map_same(const yb_map_t *a, const yb_map_t *b)
 {
-    return memcmp(a, b, offsetof(yb_map_t, triangle)) == 0 &&
+    return memcmp(a, b, offsetof(yb_map_t, vertex)) == 0 &&
            memcmp(a->vertex, b->vertex, a->vertex_count * sizeof *a->vertex) == 0 &&
            memcmp(a->triangle, b->triangle, a->triangle_count * sizeof *a->triangle) == 0;
 }

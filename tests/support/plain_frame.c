@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "camera.h"
+#include "cells.h"
 #include "clip.h"
 #include "colour.h"
 #include "raster.h"
@@ -106,12 +107,13 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
     drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL}};
-    raster_clear(&drawing.raster);
     for (int32_t y = 0; y < frame->screen.height; y++)
-        raster_row(&drawing.raster, y, colour_sky(frame, y));
+        cells_clear(&drawing.raster, y, colour_sky(frame, y));
     (void)plain_leaves(frame, draw_leaf, &drawing);
     if (frame->view.walls)
         walls_draw(frame, &plain_view, &drawing.raster);
+    for (int32_t y = 0; y < frame->screen.height; y++)
+        cells_show(&drawing.raster, y);
 }
 
 /* --- Views ------------------------------------------------------------------------------------ */

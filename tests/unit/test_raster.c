@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cells.h"
 #include "check.h"
 #include "fix.h"
 #include "raster.h"
@@ -16,7 +17,7 @@ enum {
     PITCH = WIDTH * 2 + 6
 };
 
-static uint16_t depth[WIDTH * HEIGHT];
+static uint16_t cells[WIDTH * HEIGHT];
 static uint8_t pixels[GUARD + PITCH * HEIGHT + GUARD];
 
 typedef struct {
@@ -28,12 +29,11 @@ typedef struct {
 static void open_page(page_t *page, yb_format_t format, int y, int rows)
 {
     page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
-    page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, depth, pixels + GUARD, PITCH};
+    page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, cells, pixels + GUARD, PITCH};
     page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
     memset(pixels, 0xa5, sizeof pixels);
-    raster_clear(&page->raster);
     for (int i = 0; i < rows; i++)
-        raster_row(&page->raster, y + i, 0);
+        cells_clear(&page->raster, y + i, 0);
 }
 
 /* Draws a triangle; true if it shows its front and lies between the sides of the band. */
@@ -42,11 +42,27 @@ static bool draw(const raster_t *raster, const yb_spot_t corner[3], uint16_t pix
     return raster_draw(raster, &corner[0], &corner[1], &corner[2], pixel) != RASTER_NOTHING;
 }
 
+/* A pixel value as it was drawn: a colour or a shade. */
 static uint16_t pixel_at(const page_t *page, int x, int line)
 {
     const uint8_t *row = page->band.pixels + (size_t)line * page->band.pitch;
     if (page->screen.format == YB_RGB565)
         return (uint16_t)(row[2 * x] << 8 | row[2 * x + 1]);
+    return cells[line * WIDTH + x] & 15;
+}
+
+static void show(const page_t *page)
+{
+    for (int y = page->raster.first_row; y < page->raster.end_row; y++)
+        cells_show(&page->raster, y);
+}
+
+/* What the screen makes of it. */
+static uint16_t shown_at(const page_t *page, int x, int line)
+{
+    const uint8_t *row = page->band.pixels + (size_t)line * page->band.pitch;
+    if (page->screen.format == YB_RGB565)
+        return pixel_at(page, x, line);
     if (page->screen.format == YB_MONO)
         return row[x / 8] >> (7 - x % 8) & 1;
     return x % 2 == 0 ? row[x / 2] >> 4 : row[x / 2] & 15;
@@ -56,6 +72,7 @@ static uint16_t pixel_at(const page_t *page, int x, int line)
 static void check_guards(const page_t *page)
 {
     size_t used = yb_screen_pitch(&page->screen);
+    show(page);
     for (size_t i = 0; i < sizeof pixels; i++) {
         bool inside =
             i >= GUARD && (i - GUARD) / PITCH < page->band.rows && (i - GUARD) % PITCH < used;
@@ -136,14 +153,18 @@ static void each_pixel_is_drawn_once(void **state)
             int first = rng_range(&rng, 0, 2);
             for (int i = 0; i < 3; i++)
                 corner[i] = mesh.point[mesh.triangle[t][(i + first) % 3]];
-            const uint16_t full = round % 3 == 2 ? 1 : 15; /* a lit dot, where pixels are bits */
             (void)draw(&page.raster, corner, 15);
             for (int i = 0; i < WIDTH * HEIGHT; i++) {
                 uint16_t pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
-                assert_true(pixel == 0 || pixel == full);
-                count[i] += pixel == full;
+                assert_true(pixel == 0 || pixel == 15);
+                count[i] += pixel == 15;
             }
             check_guards(&page);
+            for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                const int lit = pixel_at(&page, i % WIDTH, i / WIDTH) == 15;
+                const uint16_t full = page.screen.format == YB_MONO ? 1 : 15; /* dots are bits */
+                assert_int_equal(shown_at(&page, i % WIDTH, i / WIDTH), lit ? full : 0);
+            }
         }
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             CHECK(count[i] == 1, "round %d: pixel (%d, %d) is drawn %d times", round, i % WIDTH,
@@ -169,10 +190,10 @@ static void bands_are_parts_of_the_whole(void **state)
         open_page(&page, format, 0, HEIGHT);
         bool front = draw(&page.raster, corner, 5);
         static uint16_t whole[WIDTH * HEIGHT];
-        static uint16_t whole_depth[WIDTH * HEIGHT];
+        static uint16_t whole_cells[WIDTH * HEIGHT];
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             whole[i] = pixel_at(&page, i % WIDTH, i / WIDTH);
-        memcpy(whole_depth, depth, sizeof depth);
+        memcpy(whole_cells, cells, sizeof cells);
         int y = rng_range(&rng, 0, HEIGHT - 1);
         int rows = rng_range(&rng, 1, HEIGHT - y);
         open_page(&page, format, y, rows);
@@ -180,7 +201,7 @@ static void bands_are_parts_of_the_whole(void **state)
         (void)draw(&page.raster, corner, 5);
         for (int i = 0; i < WIDTH * rows; i++)
             assert_int_equal(pixel_at(&page, i % WIDTH, i / WIDTH), whole[i + y * WIDTH]);
-        assert_memory_equal(depth, whole_depth + y * WIDTH, (size_t)(WIDTH * rows) * 2);
+        assert_memory_equal(cells, whole_cells + y * WIDTH, (size_t)(WIDTH * rows) * 2);
         check_guards(&page);
     }
 }
@@ -198,7 +219,7 @@ static void back_faces_and_flat_ones_draw_nothing(void **state)
     assert_false(draw(&page.raster, flat, 7));
     assert_false(draw(&page.raster, away, 7));
     for (int i = 0; i < WIDTH * HEIGHT; i++)
-        assert_int_equal(pixel_at(&page, i % WIDTH, i / WIDTH) | depth[i], 0);
+        assert_int_equal(pixel_at(&page, i % WIDTH, i / WIDTH) | cells[i], 0);
     assert_true(draw(&page.raster, front, 7));
     assert_int_equal(pixel_at(&page, 0, 0), 7);
 }
@@ -263,7 +284,7 @@ static void both_ways_are_the_same(void **state)
     (void)state;
     static const yb_format_t formats[3] = {YB_RGB565, YB_GREY4, YB_MONO};
     static uint8_t level[sizeof pixels];
-    static uint16_t level_depth[sizeof depth / sizeof *depth];
+    static uint16_t level_cells[sizeof cells / sizeof *cells];
     rng_t rng = {47};
     int pairs = 0;
     for (int round = 0; round < 20000; round++) {
@@ -292,11 +313,11 @@ static void both_ways_are_the_same(void **state)
         open_page(&page, formats[round % 3], first, rows);
         raster_level(&page.raster, &shape, 9, lines);
         memcpy(level, pixels, sizeof pixels);
-        memcpy(level_depth, depth, sizeof depth);
+        memcpy(level_cells, cells, sizeof cells);
         open_page(&page, formats[round % 3], first, rows);
         raster_plane(&page.raster, &shape, RASTER_SMALL, 9, lines);
         assert_memory_equal(level, pixels, sizeof pixels);
-        assert_memory_equal(level_depth, depth, sizeof(uint16_t) * (size_t)(WIDTH * rows));
+        assert_memory_equal(level_cells, cells, sizeof(uint16_t) * (size_t)(WIDTH * rows));
         pairs++;
     }
     assert_true(pairs > 5000);
@@ -323,7 +344,7 @@ static void the_nearest_wins_in_any_order(void **state)
             } while (twice_area(&corner[i][0], &corner[i][1], &corner[i][2]) >= 0);
         }
         for (int pass = 0; pass < 3; pass++) {
-            open_page(&page, YB_GREY4, 0, HEIGHT);
+            open_page(&page, round % 2 == 0 ? YB_GREY4 : YB_RGB565, 0, HEIGHT);
             for (int i = 0; i < COUNT; i++) {
                 int which = pass == 0 ? i : pass == 1 ? COUNT - 1 - i : (i * 5 + 2) % COUNT;
                 (void)draw(&page.raster, corner[which], (uint16_t)(which + 1));
@@ -333,10 +354,66 @@ static void the_nearest_wins_in_any_order(void **state)
                 if (pass == 0)
                     first[i] = pixel;
                 assert_int_equal(pixel, first[i]);
-                assert_true(pixel == 0 ? depth[i] == 0 : depth[i] == 1000 + 9000 * (pixel - 1));
+                const bool colours = page.screen.format == YB_RGB565;
+                const uint16_t near = (uint16_t)(1000 + 9000 * (pixel - 1));
+                assert_int_equal(cells[i] & (colours ? 0xffff : 0xfff0),
+                                 pixel == 0 ? 0 : cells_depth(colours, near));
             }
         }
     }
+}
+
+/* Whatever shares a depth, the same is seen. */
+static void order_does_not_matter(void **state)
+{
+    (void)state;
+    enum {
+        COUNT = 8
+    };
+    rng_t rng = {48};
+    for (int round = 0; round < 300; round++) {
+        yb_spot_t corner[COUNT][3];
+        uint16_t pixel[COUNT];
+        for (int i = 0; i < COUNT; i++) {
+            const uint16_t near = (uint16_t)rng_range(&rng, 1, 3);
+            pixel[i] = (uint16_t)rng_range(&rng, 0, 15);
+            for (int k = 0; k < 3; k++)
+                corner[i][k] = (yb_spot_t){.x_q4 = rng_range(&rng, 0, WIDTH * 16),
+                                           .y_q4 = rng_range(&rng, 0, HEIGHT * 16),
+                                           .near = near};
+        }
+        static uint16_t first_cells[WIDTH * HEIGHT];
+        static uint8_t first_pixels[sizeof pixels];
+        for (int pass = 0; pass < 2; pass++) {
+            page_t page;
+            open_page(&page, round % 2 == 0 ? YB_GREY4 : YB_RGB565, 0, HEIGHT);
+            for (int i = 0; i < COUNT; i++) {
+                const int which = pass == 0 ? i : COUNT - 1 - i;
+                (void)draw(&page.raster, corner[which], pixel[which]);
+            }
+            if (pass == 0) {
+                memcpy(first_cells, cells, sizeof cells);
+                memcpy(first_pixels, pixels, sizeof pixels);
+            }
+        }
+        assert_memory_equal(first_cells, cells, sizeof cells);
+        assert_memory_equal(first_pixels, pixels, sizeof pixels);
+    }
+}
+
+static void twelve_bits_of_depth(void **state)
+{
+    (void)state;
+    uint16_t last = 0;
+    for (int32_t near = 0; near < 65536; near++) {
+        const uint16_t depth = cells_near12((uint16_t)near);
+        assert_true((depth & 15) == 0 && depth >= last && depth - last <= 16);
+        /* The least that has this depth: nothing below 1024 shares one, nor what is 1/512 apart. */
+        if (depth == last && near > 0)
+            assert_true(near >= 1024 && cells_near12((uint16_t)(near - near / 512)) < depth);
+        last = depth;
+    }
+    assert_int_equal(last, 0xfff0);
 }
 
 /* The corners of a random triangle that shows its front, within `size` of a place. */
@@ -370,19 +447,19 @@ static double thickness(const yb_spot_t p[3])
 static double depth_error(const yb_spot_t p[3])
 {
     page_t page;
-    open_page(&page, YB_GREY4, 0, HEIGHT);
+    open_page(&page, YB_RGB565, 0, HEIGHT);
     (void)draw(&page.raster, p, 7);
     double whole = (double)twice_area(&p[0], &p[1], &p[2]);
     double worst = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        if (depth[i] == 0)
+        if (cells[i] == 0)
             continue;
         yb_spot_t at = {i % WIDTH * 16 + 8, i / WIDTH * 16 + 8, 0, 0};
         double truth = ((double)twice_area(&p[1], &p[2], &at) * p[0].near +
                         (double)twice_area(&p[2], &p[0], &at) * p[1].near +
                         (double)twice_area(&p[0], &p[1], &at) * p[2].near) /
                        whole;
-        worst = fmax(worst, fabs(depth[i] - truth));
+        worst = fmax(worst, fabs(cells[i] - truth));
     }
     return worst;
 }
@@ -392,7 +469,7 @@ static void check_level(const yb_spot_t p[3])
 {
     int32_t mean = (p[0].near + p[1].near + p[2].near) / 3;
     for (int i = 0; i < WIDTH * HEIGHT; i++) /* as depth_error has drawn it */
-        assert_true(depth[i] == 0 || abs(depth[i] - mean) <= 1);
+        assert_true(cells[i] == 0 || abs(cells[i] - mean) <= 1);
 }
 
 /* Small ones are drawn at the mean of their corners' depths, and cover little of the
@@ -410,7 +487,7 @@ static void depth_is_a_plane(void **state)
         random_triangle(&rng, huge ? 1500 : 400, huge ? 65000 : 3000, p);
         raster_look_t look;
         page_t page;
-        open_page(&page, YB_GREY4, 0, HEIGHT);
+        open_page(&page, YB_RGB565, 0, HEIGHT);
         raster_shape_t shape;
         look = raster_front(&p[0], &p[1], &p[2], &shape);
         double error = depth_error(p);
@@ -443,7 +520,7 @@ static void huge_triangles_fit(void **state)
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, deep, row, sizeof row};
         raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
-        raster_clear(&raster);
+        cells_clear(&raster, y, 0);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
             p[k].x_q4 = rng_one_in(&rng, 2) ? -YB_MAX_SIDE * 16 : 2 * YB_MAX_SIDE * 16;
@@ -509,7 +586,7 @@ static void lines_lie_where_they_should(void **state)
             continue;
         raster_plane(&page.raster, &shape, look, 5, &cut);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
-            if (depth[i] == 0)
+            if (cells[i] == 0)
                 continue;
             const slope_t slope = slope_of(p, cut.value, i % WIDTH, i / WIDTH);
             const double half = fmax(fabs(slope.along_x), fabs(slope.along_y)) / 2;
@@ -546,16 +623,16 @@ static void shades_become_dots(void **state)
         page_t page;
         open_page(&page, YB_MONO, 0, HEIGHT);
         assert_true(draw(&page.raster, all, shade));
+        check_guards(&page);
         int of_sixteen = 0;
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
-            const uint16_t pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
+            const uint16_t pixel = shown_at(&page, i % WIDTH, i / WIDTH);
             of_sixteen += i / WIDTH < 4 && i % WIDTH < 4 ? pixel : 0;
             assert_true(pixel >= before[i]);
-            assert_int_equal(pixel, pixel_at(&page, i % WIDTH % 4, i / WIDTH % 4));
+            assert_int_equal(pixel, shown_at(&page, i % WIDTH % 4, i / WIDTH % 4));
             before[i] = pixel;
         }
         assert_int_equal(of_sixteen, shade + (shade >= 8));
-        check_guards(&page);
     }
 }
 
@@ -572,6 +649,8 @@ int main(void)
         cmocka_unit_test(slopes_are_nearly_exact),
         cmocka_unit_test(both_ways_are_the_same),
         cmocka_unit_test(the_nearest_wins_in_any_order),
+        cmocka_unit_test(order_does_not_matter),
+        cmocka_unit_test(twelve_bits_of_depth),
         cmocka_unit_test(depth_is_a_plane),
         cmocka_unit_test(huge_triangles_fit),
     };

@@ -198,7 +198,7 @@ static void check_rows(int t, const yb_point_t *point)
     if (spot->near == 0 || spot->x_q4 < 0 || spot->x_q4 >= frame.screen.width * 16 ||
         spot->y_q4 < 0 || spot->y_q4 >= frame.screen.height * 16)
         return;
-    assert_in_range(spot->y_q4 >> 4 >> frame.row_shift, frame.rows[t] >> 4, frame.rows[t] & 15);
+    assert_in_range(spot->y_q4 >> 4 >> frame.row_shift, frame.bins[t] >> 4, frame.bins[t] & 15);
 }
 
 static void check_bins(int t, yb_part_t part)

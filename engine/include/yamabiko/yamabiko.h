@@ -29,8 +29,7 @@
  *
  *     static yb_map_t map;
  *     static union { yb_load_t load; yb_frame_t frame; } work;
- *     static uint16_t depth[128 * 8];
- *     static uint8_t pixels[64 * 8];
+ *     static uint16_t cells[128 * 8];
  *
  *     if (yb_map_load(&map, &work.load, code, code_bytes) != YB_OK)
  *         return;
@@ -39,10 +38,10 @@
  *     yb_view_init(&view, &map);
  *     yb_view_orbit(&view, &map, YB_DEGREES(45), YB_DEGREES(30), 307);
  *     yb_frame_begin(&work.frame, &map, &view, &screen);
- *     yb_band_t band = {.rows = 8, .depth = depth, .pixels = pixels, .pitch = 64};
+ *     yb_band_t band = {.rows = 8, .cells = cells, .pixels = (uint8_t *)cells, .pitch = 64};
  *     for (band.y = 0; band.y < 64; band.y = (uint16_t)(band.y + 8)) {
  *         yb_frame_band(&work.frame, &band);
- *         send_to_panel(band.y, pixels);
+ *         send_to_panel(band.y, band.pixels);
  *     }
  */
 #ifndef YAMABIKO_YAMABIKO_H
@@ -161,13 +160,24 @@ typedef struct {
     uint8_t hurst_q8m1;      /* (H in 1/256) - 1: 0 is H = 1/256, 255 is H = 1 */
     bool smooth;             /* midpoints follow the slopes of the ends */
     bool detail;             /* midpoints move by noise; clear it to get the smooth part alone */
-    yb_index_t triangle[YB_MAX_TRIANGLES][3];
+    bool packed;             /* by yb_frame_place: read triangles by yb_map_triangle */
     /* Per length class: the noise's scale (q8 height for one unit of the hash sum is scale/2^9),
      * and the farthest that refinement may move a point of an edge of the class, or shorter. */
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
-    yb_vertex_t vertex[YB_MAX_VERTICES]; /* last, for yb_frame_place */
+    yb_vertex_t vertex[YB_MAX_VERTICES];
+    yb_index_t triangle[YB_MAX_TRIANGLES][3];
 } yb_map_t;
+
+/* The three corners of a triangle, wherever the map has it: right behind the last vertex, if it is
+ * packed, for then all that a map needs is in one piece.
+ */
+static inline const yb_index_t *yb_map_triangle(const yb_map_t *map, yb_triangle_t triangle)
+{
+    const void *packed = &map->vertex[map->vertex_count];
+    const yb_index_t *first = map->packed ? (const yb_index_t *)packed : map->triangle[0];
+    return first + 3 * (size_t)triangle;
+}
 
 /* One contour of a code, as decoded. */
 typedef struct {
@@ -474,10 +484,13 @@ static inline size_t yb_screen_pitch(const yb_screen_t *screen)
                                        : width * 2;
 }
 
-/* Some rows of the screen, and where to draw them. */
+/* Some rows of the screen, and where to draw them: a cell of working memory for each pixel, and the
+ * pixels. Without colours the pixels may go where the cells are, if the pitch is no more than a row
+ * of cells; elsewhere they stay while the next band is drawn, for a DMA to send.
+ */
 typedef struct {
     uint16_t y, rows; /* first row and how many; rows below the screen are left alone */
-    uint16_t *depth;  /* width * rows values of working memory */
+    uint16_t *cells;  /* width * rows */
     uint8_t *pixels;  /* rows * pitch bytes */
     size_t pitch;     /* bytes from one row of pixels to the next */
 } yb_band_t;
@@ -570,20 +583,23 @@ typedef struct {
     int32_t sway_y_q4; /* … by 1/depth: see refine.c */
     int32_t spare_q4;  /* what rounding in view space does at the near distance */
     yb_view_t view;
-    uint8_t rows[YB_MAX_TRIANGLES]; /* of a base triangle: first and last bin, a nibble each */
+    uint8_t *bins; /* of a base triangle: first and last bin, a nibble each; behind what is seen */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
     yb_point_t root[3];
     yb_level_t level[YB_MAX_LEVELS];
-    yb_seen_t seen[YB_MAX_VERTICES]; /* last, for yb_frame_place */
+    /* Last, for yb_frame_place: of a map's vertices, and right behind them of its triangles. */
+    yb_seen_t seen[YB_MAX_VERTICES];
+    uint8_t bin_memory[YB_MAX_TRIANGLES];
 } yb_frame_t;
 
 /* One piece of memory for all: `bytes` bytes, a loaded map at the beginning. In what that does not
  * need this places a frame of it, and a band from the screen's top with as many rows as there is
  * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
- * 100 vertices leaves 2.8 KB. The caller may lower band->rows, to a multiple of what a panel wants,
- * say. The frame is shorter than its type: it is not to be copied. NULL: there is not room for one
- * row, as there always is in sizeof(yb_map_t) + sizeof(yb_frame_t), two pointers, and a row's
- * depths and pixels. Frame and band are the caller's until another map is loaded here.
+ * 100 vertices leaves 4 KB. Its triangles are moved (yb_map_triangle); the frame is shorter than
+ * its type, and not to be copied. The caller may lower band->rows, to a multiple of what a panel
+ * wants, say. NULL: there is not room for one row, as there always is in sizeof(yb_map_t) +
+ * sizeof(yb_frame_t), two pointers, and a row's cells and, with colours, pixels. Frame and band are
+ * the caller's until another map is loaded here.
  */
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band);
 
