@@ -18,17 +18,15 @@ static const uint8_t dither[17][4] YB_ROM = {
 
 static void fill_colour(uint8_t *pixel, size_t width, uint16_t colour)
 {
-    const uint8_t high = (uint8_t)(colour >> 8);
-    const uint8_t low = (uint8_t)colour;
     uint8_t *const end = pixel + 2 * width;
     for (; end - pixel >= 8; pixel += 8) {
-        pixel[0] = pixel[2] = pixel[4] = pixel[6] = high;
-        pixel[1] = pixel[3] = pixel[5] = pixel[7] = low;
+        cells_colour(pixel, colour);
+        cells_colour(pixel + 2, colour);
+        cells_colour(pixel + 4, colour);
+        cells_colour(pixel + 6, colour);
     }
-    for (; pixel != end; pixel += 2) {
-        pixel[0] = high;
-        pixel[1] = low;
-    }
+    for (; pixel != end; pixel += 2)
+        cells_colour(pixel, colour);
 }
 
 void cells_clear(const raster_t *raster, int32_t y, uint16_t sky)

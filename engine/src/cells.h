@@ -59,21 +59,29 @@ static inline cells_row_t cells_from(const cells_row_t *row, int32_t x)
     return (cells_row_t){row->cell + x, row->pixel + 2 * x};
 }
 
-/* Puts a pixel value at a place, if it is nearer than all so far. Of two at one depth the greater
- * value stays: the order in which they come does not matter.
+/* Writes a colour, high byte first: one instruction, where the compiler knows how. */
+static inline void cells_colour(uint8_t *pixel, uint16_t colour)
+{
+#if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    const uint16_t swapped = (uint16_t)(colour << 8 | colour >> 8);
+    __builtin_memcpy(pixel, &swapped, sizeof swapped);
+#else
+    pixel[0] = (uint8_t)(colour >> 8);
+    pixel[1] = (uint8_t)colour;
+#endif
+}
+
+/* Puts a pixel value at a place, if it is nearer than all so far. Of two at one depth the brighter
+ * stays; of two colours, the first.
  */
 static inline void cells_put(bool colours, cells_row_t at, uint16_t depth, uint16_t pixel)
 {
     const uint16_t cell = (uint16_t)(colours ? depth : depth | pixel);
-    if (cell < *at.cell)
+    if (cell <= *at.cell)
         return;
-    if (colours) {
-        if (cell == *at.cell && pixel <= (at.pixel[0] << 8 | at.pixel[1]))
-            return;
-        at.pixel[0] = (uint8_t)(pixel >> 8);
-        at.pixel[1] = (uint8_t)pixel;
-    }
     *at.cell = cell;
+    if (colours)
+        cells_colour(at.pixel, pixel);
 }
 
 /* Nothing but the sky in row y: without colours that is black. */
