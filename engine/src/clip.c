@@ -5,7 +5,8 @@
 
 enum {
     PLANES = 5,
-    MOST_CORNERS = 3 + PLANES
+    MOST_CORNERS = 3 + PLANES,
+    FINER = 4 /* corners are in quarters of the view's unit: one may be cut twice */
 };
 
 typedef struct {
@@ -18,14 +19,14 @@ typedef struct {
     int count;
 } polygon_t;
 
-/* How far inside a plane a point is; any unit. Coordinates are below 2^18, factors 2^17. Whatever
+/* How far inside a plane a point is; any unit. Coordinates are below 2^20, factors 2^17. Whatever
  * has a spot is inside, however it was rounded: else of two triangles with a common edge one would
  * be cut and the other not.
  */
 static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int plane)
 {
     const camera_point_t *p = &corner->at;
-    int64_t inside = p->depth - frame->near;
+    int64_t inside = p->depth - FINER * frame->near;
     if (plane > 0) {
         /* One screen size beyond each side: 3/2 from the middle. But never beyond |right|, |up| =
          * 2 depth. */
@@ -94,6 +95,7 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
     at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
     at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
     camera_project(frame, at, spot);
+    spot->near = (uint16_t)camera_near(frame, at->depth / FINER);
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
@@ -103,6 +105,9 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
     for (int i = 0; i < 3; i++) {
         corner_t *to = &polygon.corner[i];
         camera_view(frame, corner[i]->place, corner[i]->top_q8, &to->at);
+        to->at.right *= FINER;
+        to->at.up *= FINER;
+        to->at.depth *= FINER;
         to->spot = corner[i]->spot.near > 0 ? &corner[i]->spot : NULL;
     }
     for (int plane = 0; plane < PLANES && polygon.count > 0; plane++)
