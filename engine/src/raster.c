@@ -13,7 +13,7 @@ typedef struct {
     uint32_t at, step; /* it may wrap after the last row */
 } side_t;
 
-/* The side down from one corner to another at row y. It lies within 135 + 3 RASTER_WIDE_Q4 of the
+/* The side down from one corner to another at row y. It lies within 24 + 3 RASTER_WIDE_Q4 of the
  * base: below 2^31 with its 20 fractional bits.
  */
 static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, int32_t base_q4,
