@@ -40,22 +40,12 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
     load->map = map;
     map->vertex_count = load->point_count;
-    yb_status_t status = border_close(load);
-    if (status == YB_OK)
-        status = mesh_triangulate(load);
-    if (status == YB_OK)
-        status = regions_find(load);
-    load->first_summit = map->vertex_count;
-    if (status == YB_OK)
-        status = summits_add(load);
-    load->first_saddle = map->vertex_count;
-    if (status == YB_OK)
-        status = links_add(load);
-    if (status == YB_OK)
-        status = skeleton_add(load);
-    if (status == YB_OK)
-        relief_prepare(load);
-    return status;
+    if (!border_close(load) || !mesh_triangulate(load) || !regions_find(load))
+        return YB_ERR_CORRUPT;
+    if (!summits_add(load) || !links_add(load) || !skeleton_add(load))
+        return YB_ERR_LIMIT;
+    relief_prepare(load);
+    return YB_OK;
 }
 
 /* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits.
@@ -103,20 +93,9 @@ static yb_status_t take_first(yb_load_t *load, uint8_t byte)
 /* One byte of a section: kept if somebody wants it, else skipped. */
 static void take_section_byte(yb_load_t *load, uint8_t byte)
 {
-    if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 0)
-        load->map->certified_error = byte;
-    else if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 1)
-        load->map->certified_k = byte;
+    if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at < 2)
+        *(load->section_at == 0 ? &load->map->certified_error : &load->map->certified_k) = byte;
     load->section_at++;
-    if (load->section_at == load->section_size)
-        load->part = (uint8_t)after_section(load);
-}
-
-static void begin_section(yb_load_t *load, uint16_t size)
-{
-    load->section_at = 0;
-    load->section_size = size;
-    load->part = (uint8_t)(size > 0 ? SECTION_BODY : after_section(load));
 }
 
 /* What follows the relief. */
@@ -125,25 +104,27 @@ static yb_status_t take_tail(yb_load_t *load, uint8_t byte)
     switch ((enum part)load->part) {
     case SECTION_HEAD:
         load->section = byte;
-        load->section_size = 0;
-        if ((byte & 15) == SECTION_LONG)
-            load->part = SECTION_SIZE_HIGH;
-        else
-            begin_section(load, byte & 15);
-        return YB_MORE;
+        load->section_size = byte & 15;
+        load->section_at = 0;
+        load->part = load->section_size == SECTION_LONG ? SECTION_SIZE_HIGH : SECTION_BODY;
+        break;
     case SECTION_SIZE_HIGH:
         load->section_size = (uint16_t)((unsigned)byte << 8);
         load->part = SECTION_SIZE_LOW;
-        return YB_MORE;
+        break;
     case SECTION_SIZE_LOW:
-        begin_section(load, (uint16_t)(load->section_size | byte));
-        return YB_MORE;
+        load->section_size = (uint16_t)(load->section_size | byte);
+        load->part = SECTION_BODY;
+        break;
     case SECTION_BODY:
         take_section_byte(load, byte);
-        return YB_MORE;
+        break;
     default:
         return load->crc != 0 ? YB_ERR_CORRUPT : yb_map_build(load->map, load);
     }
+    if (load->part == SECTION_BODY && load->section_at == load->section_size)
+        load->part = (uint8_t)after_section(load);
+    return YB_MORE;
 }
 
 static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
@@ -167,12 +148,11 @@ static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
 yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes, size_t count)
 {
     load->map = map;
-    if (load->result == YB_OK && count > 0)
-        load->result = YB_ERR_CORRUPT;
-    for (size_t i = 0; i < count && load->result == YB_MORE; i++) {
-        load->result = take_byte(load, bytes[i]);
-        if (load->result == YB_OK && i + 1 < count)
-            load->result = YB_ERR_CORRUPT;
+    for (size_t i = 0; i < count; i++) {
+        if (load->result == YB_OK)
+            load->result = YB_ERR_CORRUPT; /* a byte after the end */
+        else if (load->result == YB_MORE)
+            load->result = take_byte(load, bytes[i]);
     }
     return load->result;
 }

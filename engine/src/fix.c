@@ -29,13 +29,13 @@ static const uint16_t sine_table[65] YB_ROM = {
 #define INVERSES_64(a)                                                                             \
     INVERSES_16(a), INVERSES_16((a) + 16), INVERSES_16((a) + 32), INVERSES_16((a) + 48)
 
-/* clang-format off */
-const uint32_t fix_inverses[256] YB_ROM = {
-    0, INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
-    INVERSES_16(16), INVERSES_16(32), INVERSES_16(48),
-    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)
-};
-/* clang-format on */
+const uint32_t fix_large_inverses[17] YB_ROM = {
+    0,          INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
+    INVERSE(16)};
+const uint16_t fix_small_inverses[256 - 17] YB_ROM = {
+    INVERSE(17),     INVERSE(18),      INVERSE(19),     INVERSES_4(20),
+    INVERSES_4(24),  INVERSES_4(28),   INVERSES_16(32), INVERSES_16(48),
+    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)};
 
 int32_t fix_log2_q11(uint64_t a)
 {
@@ -76,22 +76,30 @@ uint32_t fix_exp2_q11(int32_t e_q11)
     return (mantissa + (1u << (shift - 1))) >> shift;
 }
 
+int64_t fix_wide(int32_t a, int32_t b)
+{
+    return (int64_t)a * b;
+}
+
 int32_t fix_product(int32_t a, int32_t b, int shift)
 {
-    return (int32_t)(((int64_t)a * b) >> shift);
+    return (int32_t)(fix_wide(a, b) >> shift);
 }
 
 int32_t fix_scale(int32_t a, int32_t b, int32_t c)
 {
-    return (int32_t)((int64_t)a * b / c);
+    /* Without the sign: where the engine divides 64 bits, they are unsigned. */
+    uint32_t size = (uint32_t)((uint64_t)fix_wide(fix_abs(a), fix_abs(b)) / (uint32_t)fix_abs(c));
+    return (a ^ b ^ c) < 0 ? -(int32_t)size : (int32_t)size;
 }
 
 int32_t fix_reciprocal(int32_t a)
 {
     /* The top 6 bits after the leading one look up, the other 8 interpolate: the chord lies up to
      * h^2/8 f'' = 2^13 2^-12 = 2 above the curve, and the table up to 2 below. */
-    int32_t low = 2 * fix_inverse(a >> 8);
-    return low - (((low - 2 * fix_inverse((a >> 8) + 1)) * (a & 255)) >> 8);
+    const uint16_t *inverse = &fix_small_inverses[(a >> 8) - 17];
+    int32_t low = 2 * yb_rom_u16(inverse);
+    return low - (((low - 2 * yb_rom_u16(inverse + 1)) * (a & 255)) >> 8);
 }
 
 uint32_t fix_sqrt(uint64_t a)

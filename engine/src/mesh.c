@@ -38,6 +38,16 @@ int apex_of(const yb_load_t *load, half_t e)
     return origin_of(load, last_of(e));
 }
 
+const yb_vertex_t *vertex_of(const yb_load_t *load, int v)
+{
+    return &load->map->vertex[v];
+}
+
+int32_t height_at(const yb_load_t *load, int v)
+{
+    return vertex_of(load, v)->z_q8;
+}
+
 int entry_of(const yb_load_t *load, half_t e)
 {
     return (int)(load->across[e >> 2] >> (e & 3) * ENTRY_BITS) & ENTRY_ALL;
@@ -159,23 +169,32 @@ uint32_t edge_key(const yb_load_t *load, half_t e)
     return a < b ? a << 16 | b : b << 16 | a;
 }
 
+bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    return a->x_q8 == b->x_q8 && a->y_q8 == b->y_q8;
+}
+
+void find_middle_of(const yb_vertex_t *a, const yb_vertex_t *b, yb_vertex_t *middle)
+{
+    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
+    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+}
+
 void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle)
 {
     const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
-    const yb_vertex_t *b = vertex_of(load, end_of(load, e));
-    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
-    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+    find_middle_of(a, vertex_of(load, end_of(load, e)), middle);
     middle->z_q8 = a->z_q8;
 }
 
-yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
+bool mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
 {
     yb_map_t *map = load->map;
     if (map->vertex_count >= load->vertices_promised)
-        return YB_ERR_LIMIT;
+        return false;
     yb_vertex_t *v = &map->vertex[map->vertex_count++];
     v->x_q8 = at->x_q8;
     v->y_q8 = at->y_q8;
     v->z_q8 = at->z_q8;
-    return YB_OK;
+    return true;
 }

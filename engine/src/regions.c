@@ -16,7 +16,7 @@ static yb_triangle_t root_of(yb_load_t *load, yb_triangle_t t)
     return t;
 }
 
-yb_status_t regions_find(yb_load_t *load)
+bool regions_find(yb_load_t *load)
 {
     for (yb_triangle_t t = 0; t < load->map->triangle_count; t++)
         load->root[t] = t;
@@ -50,7 +50,7 @@ yb_status_t regions_find(yb_load_t *load)
         }
     }
     /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */
-    return load->region_count == lines + 1 ? YB_OK : YB_ERR_CORRUPT;
+    return load->region_count == lines + 1;
 }
 
 int region_beside(const yb_load_t *load, int k)

@@ -168,7 +168,7 @@ static spot_t widest_place(const yb_load_t *load, int region)
     return spot;
 }
 
-static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
+static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
 {
     half_t e = spot->half;
     yb_index_t p = (yb_index_t)load->map->vertex_count;
@@ -176,22 +176,21 @@ static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
     find_middle(load, e, &summit);
     summit.z_q8 = z;
     if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
-        const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
-        summit.x_q8 = fix_middle(summit.x_q8, c->x_q8);
-        summit.y_q8 = fix_middle(summit.y_q8, c->y_q8);
+        find_middle_of(&summit, vertex_of(load, apex_of(load, e)), &summit);
         e = place_inside(e);
     }
-    if (mesh_insert(load, e, &summit) != YB_OK)
-        return YB_ERR_LIMIT;
+    if (!mesh_insert(load, e, &summit))
+        return false;
     mesh_legalise(load, p);
     yb_index_t region = load->region[load->star[p]];
     load->contour[load->contour_count + load->summit_count++] =
         (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
-    return YB_OK;
+    return true;
 }
 
-yb_status_t summits_add(yb_load_t *load)
+bool summits_add(yb_load_t *load)
 {
+    load->first_summit = load->map->vertex_count;
     for (int r = 0; r < load->region_count; r++)
         load->ground[r] = FLAT;
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
@@ -211,11 +210,11 @@ yb_status_t summits_add(yb_load_t *load)
             int32_t rise = rise_inside(load, region, h);
             if (fix_abs(h + rise) > YB_MAX_HEIGHT_Q8)
                 rise = -rise;
-            if (add_summit(load, &spot, h + rise) != YB_OK)
-                return YB_ERR_LIMIT;
+            if (!add_summit(load, &spot, h + rise))
+                return false;
             load->ground[region] = 0;
             changed = true;
         }
     }
-    return YB_OK;
+    return true;
 }
