@@ -34,8 +34,8 @@ static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int pl
         int32_t off = aside ? p->right : p->up;
         if ((plane & 1) != 0)
             off = -off;
-        inside = (int64_t)p->depth * fix_min(size * 24, 2 * frame->focal_q4) +
-                 (int64_t)off * frame->focal_q4;
+        inside = fix_wide(p->depth, fix_min(size * 24, 2 * frame->focal_q4)) +
+                 fix_wide(off, frame->focal_q4);
     }
     return corner->spot != NULL && inside < 0 ? 0 : inside;
 }
@@ -51,7 +51,8 @@ static void cut(const end_t *from, const end_t *to, corner_t *cut_at)
 {
     const camera_point_t *a = &from->corner.at;
     const camera_point_t *b = &to->corner.at;
-    int32_t part_q20 = (int32_t)(from->inside * ((int32_t)1 << 20) / (from->inside - to->inside));
+    uint64_t whole = (uint64_t)(from->inside - to->inside);
+    int32_t part_q20 = (int32_t)(((uint64_t)from->inside << 20) / whole);
     cut_at->at.right = a->right + fix_product(b->right - a->right, part_q20, 20);
     cut_at->at.up = a->up + fix_product(b->up - a->up, part_q20, 20);
     cut_at->at.depth = a->depth + fix_product(b->depth - a->depth, part_q20, 20);

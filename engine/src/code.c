@@ -54,13 +54,13 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
 {
     uint32_t cell = yb_unit_64th_m(map->cell);
-    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(map->unit) + rest_64th_m;
-    int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
-    if (above < 0)
-        return false;
-    uint64_t z_q8 = (uint64_t)above / cell;
+    int64_t z_64th_m = fix_wide(*height, (int32_t)yb_unit_64th_m(map->unit)) + rest_64th_m;
+    int64_t above = (z_64th_m + (int64_t)cell * (YB_MAX_HEIGHT_Q8 / 256)) * 256 + cell / 2;
+    /* What is below the lowest height is, as an unsigned number, beyond the highest. */
+    const uint32_t most = 2 * (uint32_t)YB_MAX_HEIGHT_Q8;
+    uint32_t z_q8 = fix_share((uint64_t)above, cell, most + 1);
     *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
-    return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
+    return z_q8 <= most;
 }
 
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */

@@ -88,9 +88,15 @@ int32_t fix_product(int32_t a, int32_t b, int shift)
 
 int32_t fix_scale(int32_t a, int32_t b, int32_t c)
 {
-    /* Without the sign: where the engine divides 64 bits, they are unsigned. */
-    uint32_t size = (uint32_t)((uint64_t)fix_wide(fix_abs(a), fix_abs(b)) / (uint32_t)fix_abs(c));
-    return (a ^ b ^ c) < 0 ? -(int32_t)size : (int32_t)size;
+    const uint64_t product = (uint64_t)fix_wide(fix_abs(a), fix_abs(b));
+    const int32_t size = (int32_t)fix_share(product, (uint32_t)fix_abs(c), UINT32_MAX);
+    return (a ^ b ^ c) < 0 ? -size : size;
+}
+
+uint32_t fix_share(uint64_t a, uint32_t b, uint32_t most)
+{
+    a /= b;
+    return a < most ? (uint32_t)a : most;
 }
 
 int32_t fix_reciprocal(int32_t a)

@@ -64,6 +64,11 @@ int32_t fix_product(int32_t a, int32_t b, int shift);
 /* a * b / c, rounded towards zero; c is not 0 and the result fits. */
 int32_t fix_scale(int32_t a, int32_t b, int32_t c);
 
+/* a / b, rounded down, but at most so much. Where the engine divides 64 bits they are unsigned: on
+ * a small processor signed division is a helper of its own.
+ */
+uint32_t fix_share(uint64_t a, uint32_t b, uint32_t most);
+
 /* Position of the highest set bit; a > 0. */
 static inline int fix_log2_floor(uint32_t a)
 {

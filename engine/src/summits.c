@@ -60,7 +60,7 @@ typedef struct {
     int32_t sloping; /* of those of their segments beyond which there is another height */
     int32_t outside; /* area of the triangles beyond those segments */
     int64_t rise;    /* sum of length times rise towards the region: below 2^17 · 2^18 · 2^16 */
-    int64_t change;  /* the same without signs */
+    uint64_t change; /* the same without signs */
 } surroundings_t;
 
 /* Area of a half's triangle: see area_of. */
@@ -85,10 +85,10 @@ static void look_round(const yb_load_t *load, int region, surroundings_t *found)
         found->length += length;
         if (up == 0)
             continue;
-        int64_t rise = (int64_t)length * up;
+        int64_t rise = fix_wide(length, up);
         found->sloping += length;
         found->rise += rise;
-        found->change += rise < 0 ? -rise : rise;
+        found->change += (uint64_t)(rise < 0 ? -rise : rise);
         found->outside += area_at(load, twin);
     }
 }
@@ -106,17 +106,16 @@ static int32_t rise_inside(const yb_load_t *load, int region, int32_t h)
         int32_t interval = rise_farther_out(load, h);
         return interval / 2 != 0 ? interval / 2 : interval;
     }
-    int32_t interval = (int32_t)(round.change / round.sloping);
+    uint32_t interval = fix_share(round.change, (uint32_t)round.sloping, UINT32_MAX);
+    uint32_t least = interval >> 3;
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
      * than enough; area / length is below 2^32, where a short line bounds much of the frame. */
-    int64_t slope_q11 = round.change * 128 / round.outside;
-    const int32_t steepest_q11 = (int32_t)1 << 20;
-    slope_q11 = slope_q11 > steepest_q11 ? steepest_q11 : slope_q11;
-    int64_t rise = (slope_q11 * ((uint32_t)round.area * 8 / (uint32_t)round.length)) >> 11;
-    int32_t least = fix_max(interval >> 3, 1);
-    int32_t most = fix_max(interval - (interval >> 3), 1);
-    rise = rise < least ? least : rise > most ? most : rise;
-    return (int32_t)(round.rise < 0 ? -rise : rise);
+    uint64_t slope_q11 =
+        fix_share(round.change * 128, (uint32_t)round.outside, (uint32_t)512 << 11);
+    uint32_t wide = (uint32_t)round.area * 8 / (uint32_t)round.length;
+    int32_t rise = (int32_t)fix_share(slope_q11 * wide, 1 << 11, interval - least);
+    rise = fix_max(rise, fix_max((int32_t)least, 1));
+    return round.rise < 0 ? -rise : rise;
 }
 
 /* --- Where ----------------------------------------------------------------------------------- */
@@ -183,8 +182,11 @@ static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
         return false;
     mesh_legalise(load, p);
     yb_index_t region = load->region[load->star[p]];
-    load->contour[load->contour_count + load->summit_count++] =
-        (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
+    yb_contour_t *contour = &load->contour[load->contour_count + load->summit_count++];
+    contour->first = p;
+    contour->count = 1;
+    contour->left = contour->right = region;
+    contour->open = false;
     return true;
 }
 

@@ -40,12 +40,6 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
     return pattern;
 }
 
-static void find_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
-{
-    for (int i = 0; i < 3; i++)
-        corner[i] = &map->vertex[map->triangle[triangle][i]];
-}
-
 static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],
                  const uint8_t child[3], const yb_vertex_t *picked[3])
 {
@@ -59,7 +53,7 @@ void surface_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longes
                     surface_level_t *levels, int count, yb_triangle_fn fn, void *context)
 {
     surface_level_t *level = levels;
-    find_corners(map, triangle, level->corner);
+    relief_corners(map, triangle, level->corner);
     for (;;) {
         level->pattern = 0;
         if (level != &levels[count - 1])
@@ -96,26 +90,27 @@ static bool weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int64_t w
     for (int i = 0; i < 3; i++) {
         const yb_vertex_t *a = p[i == 2 ? 0 : i + 1];
         const yb_vertex_t *b = p[i == 0 ? 2 : i - 1];
-        weight[i] = (int64_t)fix_minus(b->x_q8, a->x_q8) * (y - a->y_q8) -
-                    (int64_t)fix_minus(b->y_q8, a->y_q8) * (x - a->x_q8);
+        weight[i] = fix_wide(fix_minus(b->x_q8, a->x_q8), y - a->y_q8) -
+                    fix_wide(fix_minus(b->y_q8, a->y_q8), x - a->x_q8);
         inside = inside && weight[i] >= 0;
     }
     return inside;
 }
 
-/* Height of the plane through three points at a place inside them. Heights are below 2^19 and areas
- * below 2^33: each product is below 2^52.
+/* Height of the plane through three points at a place inside them; no triangle of a map is flat in
+ * plan. Heights are below 2^19 and areas below 2^33: each product is below 2^53, and counted from
+ * the lowest height, so that the division rounds down.
  */
 static int32_t plane_height(const yb_vertex_t *const p[3], const int64_t weight[3])
 {
-    int64_t whole = weight[0] + weight[1] + weight[2];
-    if (whole <= 0) /* no triangle of a map is flat in plan */
-        return p[0]->z_q8;
-    int64_t sum = 0;
-    for (int i = 0; i < 3; i++)
-        sum += weight[i] * p[i]->z_q8;
-    /* Rounded down, for heights below zero too. */
-    return (int32_t)((sum >= 0 ? sum : sum - (whole - 1)) / whole);
+    const int32_t lowest = -((int32_t)1 << 19);
+    uint64_t whole = 0;
+    uint64_t sum = 0;
+    for (int i = 0; i < 3; i++) {
+        whole += (uint64_t)weight[i];
+        sum += (uint64_t)weight[i] * (uint32_t)(p[i]->z_q8 - lowest);
+    }
+    return (int32_t)(sum / whole) + lowest;
 }
 
 int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
@@ -126,7 +121,7 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
     int64_t weight[3];
     yb_triangle_t t = 0;
     do {
-        find_corners(map, t, p);
+        relief_corners(map, t, p);
     } while (!weigh(p, x, y, weight) && ++t < map->triangle_count); /* they tile the frame */
     for (yb_vertex_t corner[3];;) {
         yb_vertex_t middle[3];

@@ -222,8 +222,8 @@ typedef struct {
     yb_map_t *map; /* what is loaded */
     union {
         struct { /* compact.c */
-            uint32_t range, code, cell;
-            int32_t base;
+            uint32_t range, code;
+            int32_t base, places_left;
             int x, y, start_x, start_y, start_way, length, height;
             yb_ring_t last; /* step */
         };
