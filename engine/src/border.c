@@ -107,6 +107,6 @@ bool border_close(yb_load_t *load)
         height[k] = known ? corner->z_q8 : interpolate(load, corner);
     }
     for (int k = 0; k < 4; k++)
-        load->map->vertex[load->corner[k]].z_q8 = height[k];
+        load->vertex[load->corner[k]].z_q8 = height[k];
     return true;
 }

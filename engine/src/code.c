@@ -23,13 +23,19 @@ enum part {
     CHECK
 };
 
+static void attach(yb_load_t *load, yb_map_t *map)
+{
+    load->map = map;
+    load->vertex = map->vertex;
+}
+
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
 {
     /* All but the arrays, which may be large and are written before they are read. */
     memset(map, 0, offsetof(yb_map_t, triangle));
     memset(load, 0, offsetof(yb_load_t, contour));
     map->detail = true;
-    load->map = map;
+    attach(load, map);
     load->vertices_promised = YB_MAX_VERTICES;
     for (int i = 0; i < 4; i++)
         load->corner_height[i] = UNKNOWN_HEIGHT;
@@ -38,7 +44,6 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
 
 yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
-    load->map = map;
     map->vertex_count = load->point_count;
     if (!border_close(load) || !mesh_triangulate(load) || !regions_find(load))
         return YB_ERR_CORRUPT;
@@ -147,7 +152,7 @@ static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
 
 yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes, size_t count)
 {
-    load->map = map;
+    attach(load, map);
     for (size_t i = 0; i < count; i++) {
         if (load->result == YB_OK)
             load->result = YB_ERR_CORRUPT; /* a byte after the end */

@@ -274,7 +274,7 @@ static bool add_point(yb_load_t *load, int32_t units)
 {
     if (load->point_count >= load->vertices_promised || outside(load, load->x, load->y))
         return false;
-    yb_vertex_t *point = &load->map->vertex[load->point_count];
+    yb_vertex_t *point = &load->vertex[load->point_count];
     point->x_q8 = place_q8(load, load->x);
     point->y_q8 = place_q8(load, load->y);
     point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
@@ -401,10 +401,10 @@ static int take_place(yb_load_t *load, int rest)
         load->y = (int)fix_clamp(load->y, 0, load->rows);
     }
     contour->count++;
-    if (!add_point(load, load->map->vertex[contour->first].z_q8))
+    if (!add_point(load, load->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     if (load->open)
-        return on_frame(load, &load->map->vertex[load->point_count - 1]) ? next_line(load)
+        return on_frame(load, &load->vertex[load->point_count - 1]) ? next_line(load)
                                                                          : next_step(load);
     if (contour->count < 3)
         return next_step(load);
@@ -561,7 +561,7 @@ static yb_status_t end_relief(yb_load_t *load)
             return YB_ERR_CORRUPT;
     }
     for (int i = 0; i < load->point_count; i++) {
-        if (!settle_height(map, rest, &map->vertex[i].z_q8))
+        if (!settle_height(map, rest, &load->vertex[i].z_q8))
             return YB_ERR_CORRUPT;
     }
     return YB_OK;

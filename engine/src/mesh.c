@@ -38,11 +38,6 @@ int apex_of(const yb_load_t *load, half_t e)
     return origin_of(load, last_of(e));
 }
 
-const yb_vertex_t *vertex_of(const yb_load_t *load, int v)
-{
-    return &load->map->vertex[v];
-}
-
 int32_t height_at(const yb_load_t *load, int v)
 {
     return vertex_of(load, v)->z_q8;
@@ -192,7 +187,7 @@ bool mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
     yb_map_t *map = load->map;
     if (map->vertex_count >= load->vertices_promised)
         return false;
-    yb_vertex_t *v = &map->vertex[map->vertex_count++];
+    yb_vertex_t *v = &load->vertex[map->vertex_count++];
     v->x_q8 = at->x_q8;
     v->y_q8 = at->y_q8;
     v->z_q8 = at->z_q8;

@@ -112,7 +112,10 @@ half_t spoke_left(const yb_load_t *load, half_t e);
 /* The spoke from vertex a that ends at b; there is one. */
 half_t spoke_to(const yb_load_t *load, int a, int b);
 
-const yb_vertex_t *vertex_of(const yb_load_t *load, int v);
+static inline const yb_vertex_t *vertex_of(const yb_load_t *load, int v)
+{
+    return &load->vertex[v];
+}
 
 int32_t height_at(const yb_load_t *load, int v);
 

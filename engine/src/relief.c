@@ -261,7 +261,7 @@ void relief_prepare(const yb_load_t *load)
     int32_t low = INT32_MAX;
     int32_t high = INT32_MIN;
     for (int i = 0; i < map->vertex_count; i++) {
-        yb_vertex_t *v = &map->vertex[i];
+        yb_vertex_t *v = &load->vertex[i];
         int32_t slope[2];
         low = fix_min(low, v->z_q8);
         high = fix_max(high, v->z_q8);

@@ -271,7 +271,7 @@ bool skeleton_add(yb_load_t *load)
     for (int k = 0; k < 2; k++) {
         for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
             if (meets(load, v) == (k == 0))
-                load->map->vertex[v].z_q8 = height_on(load, v);
+                load->vertex[v].z_q8 = height_on(load, v);
         }
     }
     return true;
