@@ -405,7 +405,7 @@ static int take_place(yb_load_t *load, int rest)
         return YB_ERR_CORRUPT;
     if (load->open)
         return on_frame(load, &load->vertex[load->point_count - 1]) ? next_line(load)
-                                                                         : next_step(load);
+                                                                    : next_step(load);
     if (contour->count < 3)
         return next_step(load);
     int32_t away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));

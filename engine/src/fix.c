@@ -15,13 +15,14 @@ static const uint16_t exp_table[33] YB_ROM = {
     8816,  9727,  10657, 11608, 12580, 13573, 14588, 15625, 16684, 17767, 18874,
     20005, 21160, 22341, 23548, 24781, 26041, 27329, 28645, 29989, 31364, 32768};
 
-/* round(16384 sin(i/64 of a right angle)) */
-static const uint16_t sine_table[65] YB_ROM = {
-    0,     402,   804,   1205,  1606,  2006,  2404,  2801,  3196,  3590,  3981,  4370,  4756,
-    5139,  5520,  5897,  6270,  6639,  7005,  7366,  7723,  8076,  8423,  8765,  9102,  9434,
-    9760,  10080, 10394, 10702, 11003, 11297, 11585, 11866, 12140, 12406, 12665, 12916, 13160,
-    13395, 13623, 13842, 14053, 14256, 14449, 14635, 14811, 14978, 15137, 15286, 15426, 15557,
-    15679, 15791, 15893, 15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384};
+/* round(16384 sin(i/64 of a right angle)); the last one is not used, but read */
+static const uint16_t sine_table[66] YB_ROM = {
+    0,     402,   804,   1205,  1606,  2006,  2404,  2801,  3196,  3590,  3981,
+    4370,  4756,  5139,  5520,  5897,  6270,  6639,  7005,  7366,  7723,  8076,
+    8423,  8765,  9102,  9434,  9760,  10080, 10394, 10702, 11003, 11297, 11585,
+    11866, 12140, 12406, 12665, 12916, 13160, 13395, 13623, 13842, 14053, 14256,
+    14449, 14635, 14811, 14978, 15137, 15286, 15426, 15557, 15679, 15791, 15893,
+    15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384, 16384};
 
 #define INVERSE(a) (((uint32_t)1 << 20) / (a))
 #define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
@@ -68,12 +69,8 @@ uint32_t fix_exp2_q11(int32_t e_q11)
     uint32_t first = yb_rom_u16(&exp_table[i]);
     uint32_t step = yb_rom_u16(&exp_table[i + 1]) - first;
     uint32_t mantissa = 32768 + first + ((step * rest + 32) >> 6); /* Q15, 1 .. 2 */
-    if (exponent >= 15) {
-        /* The last step of the table may round up to 2.0, one bit too many at the very top. */
-        return mantissa >> 16 != 0 && exponent == 31 ? UINT32_MAX : mantissa << (exponent - 15);
-    }
-    int shift = 15 - exponent; /* 1 .. 16 */
-    return (mantissa + (1u << (shift - 1))) >> shift;
+    uint64_t power = (((uint64_t)mantissa << (exponent + 1)) + 32768) >> 16;
+    return power > UINT32_MAX ? UINT32_MAX : (uint32_t)power;
 }
 
 int64_t fix_wide(int32_t a, int32_t b)
@@ -126,10 +123,8 @@ int16_t yb_sin_q14(uint16_t angle_bam)
         quarter = 0x4000 - quarter;
     uint32_t i = quarter >> 8;
     int32_t value = yb_rom_u16(&sine_table[i]);
-    if (i < 64) {
-        int32_t step = yb_rom_u16(&sine_table[i + 1]) - value;
-        value += (step * (int32_t)(quarter & 255) + 128) >> 8;
-    }
+    int32_t step = yb_rom_u16(&sine_table[i + 1]) - value;
+    value += (step * (int32_t)(quarter & 255) + 128) >> 8;
     return (int16_t)((angle_bam & 0x8000) != 0 ? -value : value);
 }
 

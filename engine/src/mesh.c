@@ -22,6 +22,11 @@ int region_of(const yb_load_t *load, half_t e)
     return load->region[triangle_of(e)];
 }
 
+int region_at(const yb_load_t *load, int v)
+{
+    return load->region[load->star[v]];
+}
+
 int origin_of(const yb_load_t *load, half_t e)
 {
     const yb_index_t *corner = load->map->triangle[0]; /* three a triangle, in a row */

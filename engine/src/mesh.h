@@ -73,8 +73,9 @@ half_t last_of(half_t e);
  */
 half_t half_after(const yb_load_t *load, half_t e);
 
-/* The region that the half's triangle lies in, after regions_find. */
+/* The region that the half's triangle lies in, after regions_find; one that meets at vertex v. */
 int region_of(const yb_load_t *load, half_t e);
+int region_at(const yb_load_t *load, int v);
 
 int origin_of(const yb_load_t *load, half_t e);
 int end_of(const yb_load_t *load, half_t e);

@@ -42,7 +42,7 @@ bool regions_find(yb_load_t *load)
     for (int i = 0; i < load->contour_count; i++) {
         yb_contour_t *contour = &load->contour[i];
         int a = contour->first;
-        contour->left = contour->right = load->region[load->star[a]];
+        contour->left = contour->right = (yb_index_t)region_at(load, a);
         if (contour->count > 1) {
             contour->left = (yb_index_t)region_of(load, spoke_to(load, a, a + 1));
             contour->right = (yb_index_t)region_of(load, spoke_to(load, a + 1, a));

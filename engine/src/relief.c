@@ -67,12 +67,13 @@ void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound)
 {
     int32_t rise = 0;
     bound->longest = 0;
-    for (int i = 0; i < 3; i++) {
+    const yb_vertex_t *q = corner[0];
+    for (int i = 2; i >= 0; i--) {
         const yb_vertex_t *p = corner[i];
-        const yb_vertex_t *q = corner[i == 2 ? 0 : i + 1];
         int class = relief_class(fix_minus(q->x_q8, p->x_q8), fix_minus(q->y_q8, p->y_q8));
         bound->longest = (int)fix_max(bound->longest, class);
         rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
+        q = p;
     }
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */

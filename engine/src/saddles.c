@@ -22,7 +22,7 @@ static int32_t other_height(const yb_load_t *load, int32_t h)
             line = line_after(load, line);
         } else {
             int corner = load->corner[k++];
-            if (load->region[load->star[corner]] == load->here)
+            if (region_at(load, corner) == load->here)
                 z = height_at(load, corner);
         }
         if (z != h && (nearest == h || fix_abs(z - h) < fix_abs(nearest - h)))

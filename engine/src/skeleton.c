@@ -175,9 +175,12 @@ static bool grow(yb_load_t *load)
     }
     for (;;) {
         int next = -1;
+        uint32_t least = 0;
         for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
-            if (!load->branch[v].grown && (next < 0 || load->way[v] < load->way[next]))
+            if (!load->branch[v].grown && (next < 0 || load->way[v] < least)) {
                 next = v;
+                least = load->way[v];
+            }
         }
         if (next < 0)
             return true;

@@ -181,11 +181,10 @@ static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
     if (!mesh_insert(load, e, &summit))
         return false;
     mesh_legalise(load, p);
-    yb_index_t region = load->region[load->star[p]];
     yb_contour_t *contour = &load->contour[load->contour_count + load->summit_count++];
     contour->first = p;
     contour->count = 1;
-    contour->left = contour->right = region;
+    contour->left = contour->right = (yb_index_t)region_at(load, p);
     contour->open = false;
     return true;
 }

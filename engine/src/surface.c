@@ -1,5 +1,8 @@
 /* The surface by itself, without a camera: refined to an even length, or asked for one height. */
 #include "surface.h"
+
+#include <string.h>
+
 #include "fix.h"
 #include "relief.h"
 #include "split.h"
@@ -27,15 +30,16 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
                            yb_vertex_t middle[3])
 {
     uint8_t pattern = 0;
-    for (int i = 0; i < 3; i++) {
+    const yb_vertex_t *b = corner[0];
+    for (int i = 2; i >= 0; i--) {
         const yb_vertex_t *a = corner[i];
-        const yb_vertex_t *b = corner[i == 2 ? 0 : i + 1];
         int32_t dx = fix_minus(b->x_q8, a->x_q8);
         int32_t dy = fix_minus(b->y_q8, a->y_q8);
         if (fix_length(dx, dy) > longest && relief_splits(dx, dy)) {
             relief_middle(map, a, b, &middle[i]);
             pattern = (uint8_t)(pattern | 1 << i);
         }
+        b = a;
     }
     return pattern;
 }
@@ -87,12 +91,14 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
 static bool weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int64_t weight[3])
 {
     bool inside = true;
+    const yb_vertex_t *a = p[1];
+    const yb_vertex_t *b = p[2];
     for (int i = 0; i < 3; i++) {
-        const yb_vertex_t *a = p[i == 2 ? 0 : i + 1];
-        const yb_vertex_t *b = p[i == 0 ? 2 : i - 1];
         weight[i] = fix_wide(fix_minus(b->x_q8, a->x_q8), y - a->y_q8) -
                     fix_wide(fix_minus(b->y_q8, a->y_q8), x - a->x_q8);
         inside = inside && weight[i] >= 0;
+        a = b;
+        b = p[i];
     }
     return inside;
 }
@@ -117,27 +123,24 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
 {
     int32_t x = fix_min(x_q8, map->east_q8);
     int32_t y = fix_min(y_q8, map->north_q8);
-    const yb_vertex_t *p[3];
+    yb_vertex_t corner[3];
+    const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
+    const yb_vertex_t *part[3];
     int64_t weight[3];
     yb_triangle_t t = 0;
     do {
-        relief_corners(map, t, p);
-    } while (!weigh(p, x, y, weight) && ++t < map->triangle_count); /* they tile the frame */
-    for (yb_vertex_t corner[3];;) {
+        relief_corners(map, t, part);
+    } while (!weigh(part, x, y, weight) && ++t < map->triangle_count); /* they tile the frame */
+    for (;;) {
+        const yb_vertex_t next[3] = {*part[0], *part[1], *part[2]};
+        memcpy(corner, next, sizeof corner);
         yb_vertex_t middle[3];
         uint8_t pattern = split_edges(map, p, YB_REFERENCE_Q8, middle);
         if (pattern == 0)
             return plane_height(p, weight);
-        const yb_vertex_t *child[3];
-        for (int k = 0; k < SPLIT_CHILDREN; k++) {
-            pick(p, middle, split_child[pattern][k], child);
-            if (weigh(child, x, y, weight))
-                break;
-        }
-        const yb_vertex_t next[3] = {*child[0], *child[1], *child[2]};
-        for (int i = 0; i < 3; i++) {
-            corner[i] = next[i];
-            p[i] = &corner[i];
-        }
+        int k = 0;
+        do {
+            pick(p, middle, split_child[pattern][k], part);
+        } while (!weigh(part, x, y, weight) && ++k < SPLIT_CHILDREN); /* they tile the whole */
     }
 }

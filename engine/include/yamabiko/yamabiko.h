@@ -219,7 +219,7 @@ typedef struct {
     uint16_t vertices_promised;
     uint16_t section_at, section_size, size;
     yb_status_t result;
-    yb_map_t *map; /* what is loaded, … */
+    yb_map_t *map;       /* what is loaded, … */
     yb_vertex_t *vertex; /* … and its vertices */
     union {
         struct { /* compact.c */
