@@ -39,28 +39,33 @@ void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex
         corner[i] = &map->vertex[map->triangle[triangle][i]];
 }
 
-static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
+/* The differences of two vertices in plan, and relief_bulge of their edge. */
+typedef struct {
+    int32_t dx, dy, bulge;
+} edge_t;
+
+static edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
 {
-    return relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, fix_minus(b->x_q8, a->x_q8),
-                        fix_minus(b->y_q8, a->y_q8));
+    int32_t dx = fix_minus(b->x_q8, a->x_q8);
+    int32_t dy = fix_minus(b->y_q8, a->y_q8);
+    return (edge_t){dx, dy, relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, dx, dy)};
 }
 
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle)
 {
-    int32_t dx = fix_minus(b->x_q8, a->x_q8);
-    int32_t dy = fix_minus(b->y_q8, a->y_q8);
-    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
-    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+    const edge_t edge = edge_of(a, b);
+    const int32_t rise = b->z_q8 - a->z_q8;
+    find_middle_of(a, b, middle);
     middle->z_q8 = (a->z_q8 + b->z_q8) >> 1;
-    if (map->smooth)
-        middle->z_q8 += smooth_rise(a, b);
-    if (map->detail) {
-        int32_t noise = relief_shake(map, relief_place(middle), relief_class(dx, dy));
-        middle->z_q8 += relief_limit(noise, dx, dy, b->z_q8 - a->z_q8);
-    }
     middle->gx_q11 = (int16_t)((a->gx_q11 + b->gx_q11) >> 1);
     middle->gy_q11 = (int16_t)((a->gy_q11 + b->gy_q11) >> 1);
+    if (map->smooth)
+        middle->z_q8 += edge.bulge;
+    if (map->detail) {
+        int32_t noise = relief_shake(map, relief_place(middle), relief_class(edge.dx, edge.dy));
+        middle->z_q8 += relief_limit(noise, edge.dx, edge.dy, rise);
+    }
 }
 
 void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound)
@@ -70,9 +75,9 @@ void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound)
     const yb_vertex_t *q = corner[0];
     for (int i = 2; i >= 0; i--) {
         const yb_vertex_t *p = corner[i];
-        int class = relief_class(fix_minus(q->x_q8, p->x_q8), fix_minus(q->y_q8, p->y_q8));
-        bound->longest = (int)fix_max(bound->longest, class);
-        rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
+        const edge_t edge = edge_of(p, q);
+        bound->longest = (int)fix_max(bound->longest, relief_class(edge.dx, edge.dy));
+        rise = fix_max(rise, fix_abs(edge.bulge));
         q = p;
     }
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
@@ -100,26 +105,24 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
 /* --- The constants of the map ----------------------------------------------------------------- */
 
 /* The slope -sum / sum_z, with 11 bits, cut: sums count heights in 1/256 step and plan differences
- * in 1/64 step, 2 bits; 9 more make 2^58 in all, and the steepest slope less than 2^62. Counted
- * from the steepest one downwards, so that the division rounds down, like everything. 0 where it is
- * flat all round.
+ * in 1/64 step, 2 bits; 9 more make 2^58 in all. Counted from the steepest one downwards, so that
+ * the division rounds down, like everything. 0 where it is flat all round.
  */
-static int32_t slope_q11(int64_t sum, int64_t sum_z)
+static int32_t slope_q11(int64_t sum, uint32_t sum_z)
 {
     const int32_t most = YB_MAX_SLOPE_Q11;
-    int64_t above = (sum_z * 16 - sum) * 512;
+    int64_t above = ((int64_t)sum_z * 16 - sum) * 512;
     if (sum_z == 0)
         return 0;
-    if (above < 0)
-        return -most;
-    uint64_t slope = (uint64_t)above / (uint64_t)sum_z;
-    return slope > 2 * (uint32_t)most ? most : (int32_t)slope - most;
+    return above < 0 ? -most
+                     : (int32_t)fix_share((uint64_t)above, sum_z, 2 * YB_MAX_SLOPE_Q11) - most;
 }
 
 /* Slope of the smooth surface at v: the area-weighted mean over the triangles that meet there, flat
  * ones left out. The upward normals n of triangles twice their area long are just summed: the slope
  * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^14 1/64 steps and heights
- * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49.
+ * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49; n_z,
+ * twice the area, within that of the frame: 2^29.
  */
 static void find_slope(const yb_load_t *load, int v, int32_t slope[2])
 {
@@ -138,7 +141,7 @@ static void find_slope(const yb_load_t *load, int v, int32_t slope[2])
         }
     }
     for (int i = 0; i < 2; i++)
-        slope[i] = slope_q11(sum[i], sum[2]);
+        slope[i] = slope_q11(sum[i], (uint32_t)sum[2]);
 }
 
 /* Keeps the parabolas on the edges at v from overshooting: none may begin more than half as steep
