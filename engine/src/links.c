@@ -110,9 +110,8 @@ static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 {
     int32_t far = edge_length(load, p, summit);
     for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
-        int q = end_of(load, e);
         if (region_of(load, e) == load->here && entry_of(load, e) < NO_TRIANGLE &&
-            height_at(load, q) == height_at(load, p) && edge_length(load, p, q) < far)
+            rise_of(load, e) == 0 && half_length(load, e) < far)
             return true;
     }
     return false;

@@ -162,6 +162,11 @@ int32_t half_length(const yb_load_t *load, half_t e)
     return edge_length(load, origin_of(load, e), end_of(load, e));
 }
 
+int32_t rise_of(const yb_load_t *load, half_t e)
+{
+    return height_at(load, end_of(load, e)) - height_at(load, origin_of(load, e));
+}
+
 uint32_t edge_key(const yb_load_t *load, half_t e)
 {
     uint32_t a = (uint32_t)origin_of(load, e);

@@ -147,6 +147,9 @@ int32_t edge_length(const yb_load_t *load, int a, int b);
 
 int32_t half_length(const yb_load_t *load, half_t e);
 
+/* Height at the end of a half less that at its origin. */
+int32_t rise_of(const yb_load_t *load, half_t e);
+
 /* Do two vertices lie at one place? */
 bool same_place(const yb_vertex_t *a, const yb_vertex_t *b);
 

@@ -14,21 +14,19 @@
  */
 #include "mesh.h"
 
-/* Is an edge one to be split: of one height, and no contour or link? */
-static bool is_bridge(const yb_load_t *load, half_t e)
-{
-    int a = origin_of(load, e);
-    int b = end_of(load, e);
-    return !is_marked(load, e) && a < load->first_skeleton && b < load->first_skeleton &&
-           height_at(load, a) == height_at(load, b);
-}
-
-/* A bridge, and what its middle is reached from. */
+/* An edge that may be a bridge, and what its middle is reached from. */
 typedef struct {
     half_t half;
     uint32_t key; /* its place in the order of edges */
     int parent, other;
 } bridge_t;
+
+/* Is it one to be split: of one height, and no contour or link? */
+static bool is_bridge(const yb_load_t *load, const bridge_t *bridge)
+{
+    return (bridge->key & 0xffff) < load->first_skeleton && rise_of(load, bridge->half) == 0 &&
+           !is_marked(load, bridge->half);
+}
 
 /* Splits a bridge; the height of its middle is that of the edge until heights are known. */
 static bool split_bridge(yb_load_t *load, const bridge_t *bridge)
@@ -141,7 +139,7 @@ static bool find_bridge(const yb_load_t *load, int v, bridge_t *next)
             bridge.half = last_of(bridge.half);
             bridge.key = edge_key(load, bridge.half);
             if (bridge.key < next->key && (!begins || bridge.key >> 16 == (uint32_t)v) &&
-                is_bridge(load, bridge.half) && look_across(load, &bridge, begins))
+                is_bridge(load, &bridge) && look_across(load, &bridge, begins))
                 *next = bridge;
         }
     }
@@ -195,9 +193,8 @@ static uint32_t way_to_contour(const yb_load_t *load, int v)
 {
     int32_t way = 0;
     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
-        int side = end_of(load, e);
-        if (side < load->first_skeleton && height_at(load, side) == height_at(load, v))
-            way = fix_max(way, edge_length(load, v, side));
+        if (end_of(load, e) < load->first_skeleton && rise_of(load, e) == 0)
+            way = fix_max(way, half_length(load, e));
     }
     return (uint32_t)way;
 }

@@ -195,7 +195,7 @@ bool summits_add(yb_load_t *load)
     for (int r = 0; r < load->region_count; r++)
         load->ground[r] = FLAT;
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
-        if (height_at(load, origin_of(load, e)) != height_at(load, end_of(load, e)))
+        if (rise_of(load, e) != 0)
             load->ground[region_of(load, e)] = 0;
     }
     /* A region may have to wait until its neighbour has a second height: round and round until
