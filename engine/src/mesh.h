@@ -164,6 +164,11 @@ void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle);
  */
 uint32_t edge_key(const yb_load_t *load, half_t e);
 
+static inline int lower_end(const yb_load_t *load, half_t e)
+{
+    return (int)(edge_key(load, e) >> 16);
+}
+
 /* --- Stages ----------------------------------------------------------------------------------- */
 
 /* The first three answer false where the contours are corrupt, the others where the mesh has no

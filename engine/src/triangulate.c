@@ -99,7 +99,7 @@ static bool illegal(const yb_load_t *load, half_t e)
     int64_t inside = in_circle(load, load->map->triangle[triangle_of(e)], d);
     if (inside != 0)
         return inside > 0;
-    return fix_min(apex_of(load, e), d) < fix_min(origin_of(load, e), end_of(load, e));
+    return fix_min(apex_of(load, e), d) < lower_end(load, e);
 }
 
 /* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
@@ -113,7 +113,7 @@ void mesh_legalise(yb_load_t *load, int p)
     do {
         while (illegal(load, next_of(e))) {
             flip(load, next_of(e)); /* its triangle is now (a d p): the first of the two new ones */
-            e = half_at(load, triangle_of(e), p);
+            e = place_inside(e) - 1;
         }
         e = spoke_left(load, e);
     } while (e != NO_HALF && end_of(load, e) != first_end);
@@ -179,12 +179,13 @@ static bool insert_all(yb_load_t *load)
 {
     yb_map_t *map = load->map;
     const yb_index_t *corner = load->corner;
+    facet_t half = {{corner[0], corner[1], corner[2]}, {NO_TRIANGLE, NO_TRIANGLE, NO_TRIANGLE}};
     map->triangle_count = 2;
-    for (int t = 0; t < 2; t++) {
-        facet_t part = {{corner[0], corner[t + 1], corner[t + 2]},
-                        {t == 0 ? NO_TRIANGLE : 0, NO_TRIANGLE, NO_TRIANGLE}};
-        put_facet(load, t, &part);
-    }
+    put_facet(load, 0, &half);
+    half.v[1] = corner[2];
+    half.v[2] = corner[3];
+    half.across[0] = 0;
+    put_facet(load, 1, &half);
     mesh_legalise(load, corner[1]); /* the diagonal */
     int t = 0;
     for (int p = 0; p < map->vertex_count; p++) {
