@@ -75,10 +75,11 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
 /* Makes corner k a vertex, unless a line ends there. */
 static bool place_corner(yb_load_t *load, int k)
 {
-    yb_vertex_t corner;
-    corner.x_q8 = ((k + 1) & 2) != 0 ? load->map->east_q8 : 0;
-    corner.y_q8 = (k & 2) != 0 ? load->map->north_q8 : 0;
-    corner.z_q8 = load->corner_height[k];
+    yb_vertex_t corner = {
+        .x_q8 = ((k + 1) & 2) != 0 ? load->map->east_q8 : 0,
+        .y_q8 = (k & 2) != 0 ? load->map->north_q8 : 0,
+        .z_q8 = load->corner_height[k],
+    };
     int i = 0;
     while (i < load->point_count && !same_place(vertex_of(load, i), &corner))
         i++;
