@@ -38,6 +38,14 @@ const uint16_t fix_small_inverses[256 - 17] YB_ROM = {
     INVERSES_4(24),  INVERSES_4(28),   INVERSES_16(32), INVERSES_16(48),
     INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)};
 
+/* Between an entry of a table and the next, greater one: the part has so many bits. */
+static uint32_t between(const uint16_t *entry, uint32_t part, int bits)
+{
+    uint32_t first = yb_rom_u16(entry);
+    uint32_t step = yb_rom_u16(entry + 1) - first;
+    return first + ((step * part + ((uint32_t)1 << bits >> 1)) >> bits);
+}
+
 int32_t fix_log2_q11(uint64_t a)
 {
     /* Bring a to 1.5 .. fraction of 16 bits: the top 5 of them look up, the other 11 interpolate.
@@ -50,11 +58,8 @@ int32_t fix_log2_q11(uint64_t a)
     uint32_t low = (uint32_t)a;
     int top = fix_log2_floor(low);
     uint32_t fraction = (low << (31 - top)) >> 15 & 0xffff;
-    uint32_t i = fraction >> 11;
-    uint32_t rest = fraction & 0x7ff;
-    uint32_t first = yb_rom_u16(&log_table[i]);
-    uint32_t step = yb_rom_u16(&log_table[i + 1]) - first;
-    return (int32_t)(exponent + top) * 2048 + (int32_t)(first + ((step * rest + 1024) >> 11));
+    uint32_t log = between(&log_table[fraction >> 11], fraction & 0x7ff, 11);
+    return (int32_t)(exponent + top) * 2048 + (int32_t)log;
 }
 
 uint32_t fix_exp2_q11(int32_t e_q11)
@@ -65,10 +70,7 @@ uint32_t fix_exp2_q11(int32_t e_q11)
     if (exponent < -1)
         return 0;
     uint32_t i = (uint32_t)e_q11 >> 6 & 31;
-    uint32_t rest = (uint32_t)e_q11 & 63;
-    uint32_t first = yb_rom_u16(&exp_table[i]);
-    uint32_t step = yb_rom_u16(&exp_table[i + 1]) - first;
-    uint32_t mantissa = 32768 + first + ((step * rest + 32) >> 6); /* Q15, 1 .. 2 */
+    uint32_t mantissa = 32768 + between(&exp_table[i], (uint32_t)e_q11 & 63, 6); /* Q15, 1 .. 2 */
     uint64_t power = (((uint64_t)mantissa << (exponent + 1)) + 32768) >> 16;
     return power > UINT32_MAX ? UINT32_MAX : (uint32_t)power;
 }
@@ -121,10 +123,7 @@ int16_t yb_sin_q14(uint16_t angle_bam)
     uint32_t quarter = angle_bam & 0x3fff;
     if ((angle_bam & 0x4000) != 0)
         quarter = 0x4000 - quarter;
-    uint32_t i = quarter >> 8;
-    int32_t value = yb_rom_u16(&sine_table[i]);
-    int32_t step = yb_rom_u16(&sine_table[i + 1]) - value;
-    value += (step * (int32_t)(quarter & 255) + 128) >> 8;
+    int32_t value = (int32_t)between(&sine_table[quarter >> 8], quarter & 255, 8);
     return (int16_t)((angle_bam & 0x8000) != 0 ? -value : value);
 }
 

@@ -7,7 +7,7 @@
 #include "relief.h"
 #include "split.h"
 
-const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
+const uint8_t split_child[8 + 1][SPLIT_CHILDREN][3] YB_ROM = {
     {{SPLIT_END}},
     {{0, 3, 2}, {3, 1, 2}, {SPLIT_END}},
     {{1, 4, 0}, {4, 2, 0}, {SPLIT_END}},
@@ -16,6 +16,7 @@ const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
     {{3, 5, 0}, {1, 2, 5}, {1, 5, 3}, {SPLIT_END}},
     {{5, 4, 2}, {0, 1, 4}, {0, 4, 5}, {SPLIT_END}},
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}},
+    {{SPLIT_END}},
 };
 
 /* Each level at least halves the area, which twice over is a whole number of square 1/256 steps
@@ -59,21 +60,20 @@ void surface_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longes
     surface_level_t *level = levels;
     relief_corners(map, triangle, level->corner);
     for (;;) {
-        level->pattern = 0;
+        uint8_t pattern = 0;
         if (level != &levels[count - 1])
-            level->pattern = split_edges(map, level->corner, longest_q8, level->middle);
-        level->child = 0;
-        if (level->pattern == 0)
+            pattern = split_edges(map, level->corner, longest_q8, level->middle);
+        if (pattern == 0)
             fn(context, level->corner[0], level->corner[1], level->corner[2]);
+        level->child = split_child[pattern][0];
         /* Up to the next level that has a child left, and down into it. */
-        const uint8_t *child = split_child[level->pattern][0];
-        while (level->child == SPLIT_CHILDREN || yb_rom_u8(child) == SPLIT_END) {
+        while (yb_rom_u8(level->child) == SPLIT_END) {
             if (level == levels)
                 return;
             level--;
-            child = split_child[level->pattern][++level->child & 3];
         }
-        pick(level->corner, level->middle, child, level[1].corner);
+        pick(level->corner, level->middle, level->child, level[1].corner);
+        level->child += 3;
         level++;
     }
 }
