@@ -291,8 +291,8 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
 /* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
- * Cost: a hundred-byte code takes about 2.2 M instructions on a Cortex-M3, 251 scattered summits
- * 4.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * Cost: a hundred-byte code takes about 2.4 M instructions on a Cortex-M3, 251 scattered summits
+ * 4.6 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);
