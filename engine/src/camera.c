@@ -141,7 +141,7 @@ static void find_rows(yb_frame_t *frame)
     uint64_t square = 0;
     for (int i = 0; i < 3; i++) {
         way_q15[i] = (view->eye_q8[i] - view->look_q8[i]) * 128;
-        square += (uint64_t)((int64_t)way_q15[i] * way_q15[i]);
+        square += (uint64_t)fix_wide(way_q15[i], way_q15[i]);
         length_q15[i] = (int32_t)fix_sqrt(square);
     }
     const int32_t flat = length_q15[1];
@@ -175,14 +175,16 @@ static void find_rows(yb_frame_t *frame)
  */
 static void find_shift(yb_frame_t *frame, int32_t stray)
 {
-    const int32_t *eye = frame->view.eye_q8;
     const yb_map_t *map = frame->map;
     /* Heights are below 2^19, times an exaggeration of 2^11. */
-    int32_t low = ((map->low_q8 - stray) * frame->view.exaggerate_q8) >> 8;
-    int32_t high = ((map->high_q8 + stray) * frame->view.exaggerate_q8) >> 8;
-    uint32_t all = (uint32_t)(fix_abs(eye[0]) | fix_abs(map->east_q8 - eye[0]) | fix_abs(eye[1]) |
-                              fix_abs(map->north_q8 - eye[1]) | fix_abs(low - eye[2]) |
-                              fix_abs(high - eye[2]));
+    const int32_t corner[2][3] = {
+        {0, 0, ((map->low_q8 - stray) * frame->view.exaggerate_q8) >> 8},
+        {map->east_q8, map->north_q8, ((map->high_q8 + stray) * frame->view.exaggerate_q8) >> 8}};
+    uint32_t all = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 2; k++)
+            all |= (uint32_t)fix_abs(corner[k][i] - frame->view.eye_q8[i]);
+    }
     frame->eye_shift = 0;
     for (; all >> 16 != 0; all >>= 1)
         frame->eye_shift++;
@@ -207,11 +209,12 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
     frame->near_scaled = shifted(frame->near, shift);
 }
 
-/* a / b, rounded down, but at most so much. */
-static uint32_t share(uint64_t a, uint32_t b, uint32_t most)
+/* A way on the screen, over a 1/depth that is up to an eighth nearer than it was: 8/7; with 20
+ * fractional bits, rounded up. 34 bits and 20 more, less the 31 of `least`.
+ */
+static uint32_t sway_of(uint64_t way, uint32_t least)
 {
-    a /= b;
-    return a < most ? (uint32_t)a : most;
+    return (uint32_t)(((way * 8 / 7 << 20) + least - 1) / least);
 }
 
 /* What a change of height does on the screen. `whole` is 1/depth times depth, in q8, and `bend`
@@ -221,31 +224,28 @@ static uint32_t share(uint64_t a, uint32_t b, uint32_t most)
  */
 static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
 {
-    frame->most_bend = bend > 0 ? (int32_t)share(whole << 8, bend, MOST_BEND) : MOST_BEND;
+    frame->most_bend = bend > 0 ? (int32_t)fix_share(whole << 8, bend, MOST_BEND) : MOST_BEND;
     /* As 32 bits, the highest of them set: near is LEAST_NEAR or more, this has 36 or more. */
     int shift = 20;
     for (whole <<= 14; whole >> 32 != 0; whole >>= 1)
         shift++;
     const uint32_t least = (uint32_t)whole;
-    uint32_t lift = ((uint32_t)frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits, as bend */
-    const uint64_t up = (uint64_t)lift * (uint32_t)frame->focal_q4;
-    const uint32_t side[2] = {frame->screen.width, frame->screen.height};
-    uint32_t sway[2];
-    for (int i = 0; i < 2; i++) {
-        /* Up to a screen size off the screen, and an eighth nearer than it was: 8/7. */
-        uint64_t way = ((uint64_t)bend * (side[i] * 24) + (i > 0 ? up : 0)) * 8 / 7;
-        /* 34 bits and 20 more, less the 31 of `least`. */
-        sway[i] = (uint32_t)(((way << 20) + least - 1) / least);
-    }
+    int32_t lift = (frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits, as bend */
+    const uint64_t up = (uint64_t)fix_wide(lift, frame->focal_q4);
     uint32_t rise = (uint32_t)((up << 20) / least);
-    for (; shift > 41 || rise >= 2047 || sway[0] >= 2047 || sway[1] >= 2047; shift--) {
+    /* Up to a screen size off the screen. */
+    const int32_t aside = (int32_t)frame->screen.width * 24;
+    const int32_t along = (int32_t)frame->screen.height * 24;
+    uint32_t sway_x = sway_of((uint64_t)fix_wide((int32_t)bend, aside), least);
+    uint32_t sway_y = sway_of((uint64_t)fix_wide((int32_t)bend, along) + up, least);
+    for (; shift > 41 || rise >= 2047 || sway_x >= 2047 || sway_y >= 2047; shift--) {
         rise >>= 1;
-        sway[0] = (sway[0] + 1) >> 1;
-        sway[1] = (sway[1] + 1) >> 1;
+        sway_x = (sway_x + 1) >> 1;
+        sway_y = (sway_y + 1) >> 1;
     }
     frame->lift = (int16_t)rise;
-    frame->sway_x_q4 = (int32_t)sway[0];
-    frame->sway_y_q4 = (int32_t)sway[1];
+    frame->sway_x_q4 = (int32_t)sway_x;
+    frame->sway_y_q4 = (int32_t)sway_y;
     frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
 }
 
@@ -270,7 +270,7 @@ static void find_lengths(yb_frame_t *frame, uint64_t whole)
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
         edge_q4 = (uint32_t)fix_max(28 * width / 25 - 20, (width + 1) >> 1);
-    frame->longest = share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
+    frame->longest = fix_share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
 }
 
 void camera_begin(yb_frame_t *frame, int32_t stray)

@@ -1,5 +1,7 @@
 #include "clip.h"
 
+#include <string.h>
+
 #include "camera.h"
 #include "fix.h"
 
@@ -15,7 +17,7 @@ typedef struct {
 } corner_t;
 
 typedef struct {
-    corner_t corner[MOST_CORNERS];
+    corner_t corner[MOST_CORNERS + 1]; /* before the last plane room for two more */
     int count;
 } polygon_t;
 
@@ -35,24 +37,17 @@ static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int pl
         int32_t off = aside ? p->right : p->up;
         if ((plane & 1) != 0)
             off = -off;
-        inside = (int64_t)p->depth * fix_min(size * 24, 2 * frame->focal_q4) +
-                 (int64_t)off * frame->focal_q4;
+        inside = fix_wide(p->depth, fix_min(size * 24, 2 * frame->focal_q4)) +
+                 fix_wide(off, frame->focal_q4);
     }
     return corner->spot != NULL && inside < 0 ? 0 : inside;
 }
 
-/* An end of a polygon's side, and how far inside a plane it is. */
-typedef struct {
-    corner_t corner;
-    int64_t inside;
-} end_t;
-
-/* Where the way from an end inside to one outside meets the plane. */
-static void cut(const end_t *from, const end_t *to, corner_t *cut_at)
+/* A part of the way from one corner to another, maybe in the place of either. */
+static void cut(const corner_t *from, const corner_t *to, int32_t part_q20, corner_t *cut_at)
 {
-    const camera_point_t *a = &from->corner.at;
-    const camera_point_t *b = &to->corner.at;
-    int32_t part_q20 = (int32_t)(from->inside * ((int32_t)1 << 20) / (from->inside - to->inside));
+    const camera_point_t *a = &from->at;
+    const camera_point_t *b = &to->at;
     cut_at->at.right = a->right + fix_product(b->right - a->right, part_q20, 20);
     cut_at->at.up = a->up + fix_product(b->up - a->up, part_q20, 20);
     cut_at->at.depth = a->depth + fix_product(b->depth - a->depth, part_q20, 20);
@@ -60,24 +55,29 @@ static void cut(const end_t *from, const end_t *to, corner_t *cut_at)
 }
 
 /* Cuts off what is outside a plane, in place: a convex polygon leaves a plane's inner side once, so
- * what is written is at most one corner ahead of what is read, and that one is held.
+ * what is written is at most one corner ahead of what is read, and that has moved up by one.
  */
 static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
 {
     int count = polygon->count;
     corner_t *corner = polygon->corner;
-    corner[count] = corner[0]; /* before the last plane too there is room for one more */
-    end_t p = {corner[0], inside_of(frame, &corner[0], plane)};
+    memmove(&corner[1], &corner[0], (size_t)count * sizeof *corner);
+    corner[count + 1] = corner[1];
     polygon->count = 0;
+    int64_t inside = inside_of(frame, &corner[1], plane);
     for (int i = 1; i <= count; i++) {
-        end_t q = {corner[i], inside_of(frame, &corner[i], plane)};
-        if (p.inside >= 0)
-            corner[polygon->count++] = p.corner;
-        if ((p.inside ^ q.inside) < 0) {
-            const end_t *from = p.inside >= 0 ? &p : &q;
-            cut(from, from == &p ? &q : &p, &corner[polygon->count++]);
+        const corner_t *p = &corner[i];
+        const corner_t *q = &corner[i + 1];
+        int64_t next = inside_of(frame, q, plane);
+        if (inside >= 0)
+            corner[polygon->count++] = *p;
+        if ((inside ^ next) <
+            0) { /* from inside to outside, so that it does not matter which is p */
+            uint64_t part = (uint64_t)(next < 0 ? inside : next) << 20;
+            part /= (uint64_t)(next < 0 ? inside - next : next - inside);
+            cut(next < 0 ? p : q, next < 0 ? q : p, (int32_t)part, &corner[polygon->count++]);
         }
-        p = q;
+        inside = next;
     }
 }
 

@@ -23,13 +23,19 @@ enum part {
     CHECK
 };
 
+static void attach(yb_load_t *load, yb_map_t *map)
+{
+    load->map = map;
+    load->vertex = map->vertex;
+}
+
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
 {
     /* All but the arrays, which may be large and are written before they are read. */
     memset(map, 0, offsetof(yb_map_t, vertex));
     memset(load, 0, offsetof(yb_load_t, contour));
     map->detail = true;
-    load->map = map;
+    attach(load, map);
     load->vertices_promised = YB_MAX_VERTICES;
     for (int i = 0; i < 4; i++)
         load->corner_height[i] = UNKNOWN_HEIGHT;
@@ -38,24 +44,13 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
 
 yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
-    load->map = map;
     map->vertex_count = load->point_count;
-    yb_status_t status = border_close(load);
-    if (status == YB_OK)
-        status = mesh_triangulate(load);
-    if (status == YB_OK)
-        status = regions_find(load);
-    load->first_summit = map->vertex_count;
-    if (status == YB_OK)
-        status = summits_add(load);
-    load->first_saddle = map->vertex_count;
-    if (status == YB_OK)
-        status = links_add(load);
-    if (status == YB_OK)
-        status = skeleton_add(load);
-    if (status == YB_OK)
-        relief_prepare(load);
-    return status;
+    if (!border_close(load) || !mesh_triangulate(load) || !regions_find(load))
+        return YB_ERR_CORRUPT;
+    if (!summits_add(load) || !links_add(load) || !skeleton_add(load))
+        return YB_ERR_LIMIT;
+    relief_prepare(load);
+    return YB_OK;
 }
 
 /* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits.
@@ -64,13 +59,13 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
 {
     uint32_t cell = yb_unit_64th_m(map->cell);
-    int64_t z_64th_m = (int64_t)*height * yb_unit_64th_m(map->unit) + rest_64th_m;
-    int64_t above = z_64th_m * 256 + cell / 2 + (int64_t)cell * YB_MAX_HEIGHT_Q8;
-    if (above < 0)
-        return false;
-    uint64_t z_q8 = (uint64_t)above / cell;
+    int64_t z_64th_m = fix_wide(*height, (int32_t)yb_unit_64th_m(map->unit)) + rest_64th_m;
+    int64_t above = (z_64th_m + (int64_t)cell * (YB_MAX_HEIGHT_Q8 / 256)) * 256 + cell / 2;
+    /* What is below the lowest height is, as an unsigned number, beyond the highest. */
+    const uint32_t most = 2 * (uint32_t)YB_MAX_HEIGHT_Q8;
+    uint32_t z_q8 = fix_share((uint64_t)above, cell, most + 1);
     *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
-    return z_q8 <= 2 * YB_MAX_HEIGHT_Q8;
+    return z_q8 <= most;
 }
 
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */
@@ -103,20 +98,9 @@ static yb_status_t take_first(yb_load_t *load, uint8_t byte)
 /* One byte of a section: kept if somebody wants it, else skipped. */
 static void take_section_byte(yb_load_t *load, uint8_t byte)
 {
-    if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 0)
-        load->map->certified_error = byte;
-    else if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at == 1)
-        load->map->certified_k = byte;
+    if ((load->section >> 4 & 7) == YB_SECTION_CERTIFICATE && load->section_at < 2)
+        *(load->section_at == 0 ? &load->map->certified_error : &load->map->certified_k) = byte;
     load->section_at++;
-    if (load->section_at == load->section_size)
-        load->part = (uint8_t)after_section(load);
-}
-
-static void begin_section(yb_load_t *load, uint16_t size)
-{
-    load->section_at = 0;
-    load->section_size = size;
-    load->part = (uint8_t)(size > 0 ? SECTION_BODY : after_section(load));
 }
 
 /* What follows the relief. */
@@ -125,25 +109,27 @@ static yb_status_t take_tail(yb_load_t *load, uint8_t byte)
     switch ((enum part)load->part) {
     case SECTION_HEAD:
         load->section = byte;
-        load->section_size = 0;
-        if ((byte & 15) == SECTION_LONG)
-            load->part = SECTION_SIZE_HIGH;
-        else
-            begin_section(load, byte & 15);
-        return YB_MORE;
+        load->section_size = byte & 15;
+        load->section_at = 0;
+        load->part = load->section_size == SECTION_LONG ? SECTION_SIZE_HIGH : SECTION_BODY;
+        break;
     case SECTION_SIZE_HIGH:
         load->section_size = (uint16_t)((unsigned)byte << 8);
         load->part = SECTION_SIZE_LOW;
-        return YB_MORE;
+        break;
     case SECTION_SIZE_LOW:
-        begin_section(load, (uint16_t)(load->section_size | byte));
-        return YB_MORE;
+        load->section_size = (uint16_t)(load->section_size | byte);
+        load->part = SECTION_BODY;
+        break;
     case SECTION_BODY:
         take_section_byte(load, byte);
-        return YB_MORE;
+        break;
     default:
         return load->crc != 0 ? YB_ERR_CORRUPT : yb_map_build(load->map, load);
     }
+    if (load->part == SECTION_BODY && load->section_at == load->section_size)
+        load->part = (uint8_t)after_section(load);
+    return YB_MORE;
 }
 
 static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
@@ -166,13 +152,12 @@ static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
 
 yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes, size_t count)
 {
-    load->map = map;
-    if (load->result == YB_OK && count > 0)
-        load->result = YB_ERR_CORRUPT;
-    for (size_t i = 0; i < count && load->result == YB_MORE; i++) {
-        load->result = take_byte(load, bytes[i]);
-        if (load->result == YB_OK && i + 1 < count)
-            load->result = YB_ERR_CORRUPT;
+    attach(load, map);
+    for (size_t i = 0; i < count; i++) {
+        if (load->result == YB_OK)
+            load->result = YB_ERR_CORRUPT; /* a byte after the end */
+        else if (load->result == YB_MORE)
+            load->result = take_byte(load, bytes[i]);
     }
     return load->result;
 }

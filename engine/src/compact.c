@@ -11,10 +11,10 @@
 
 enum element {
     UNIFORM, /* one of n, all alike */
-    BIT,
     NUMBER,
-    REST, /* of a number: the bits within its class */
-    TURN
+    BIT = 2, /* one of two, … */
+    REST,    /* of a number: the bits within its class */
+    TURN = 8 /* … one of eight, by a tree of models */
 };
 
 /* What takes a field answers which one comes next, or with an error, below 0. */
@@ -144,13 +144,11 @@ static bool decide_element(yb_load_t *load)
 {
     switch ((enum element)load->element) {
     case BIT:
-        load->value = (uint16_t)decide(load, load->at);
-        return true;
     case TURN:
         load->value = (uint16_t)(load->value << 1 | decide(load, load->at + load->value - 1));
-        if (load->value < 8)
+        if (load->value < load->element)
             return false;
-        load->value -= 8;
+        load->value = (uint16_t)(load->value - load->element);
         return true;
     case NUMBER: /* the class, in unary */
         if (load->classes < MOST_CLASS &&
@@ -265,7 +263,8 @@ static int take_header(yb_load_t *load, int value)
 
 static bool outside(const yb_load_t *load, int x, int y)
 {
-    return x < 0 || y < 0 || x > load->columns || y > load->rows;
+    /* As unsigned numbers, what is below zero is far beyond the other sides. */
+    return (unsigned)x > load->columns || (unsigned)y > load->rows;
 }
 
 /* Until the relief is complete a vertex's z is in units above the base; cut, so that sums of
@@ -275,7 +274,7 @@ static bool add_point(yb_load_t *load, int32_t units)
 {
     if (load->point_count >= load->vertices_promised || outside(load, load->x, load->y))
         return false;
-    yb_vertex_t *point = &load->map->vertex[load->point_count];
+    yb_vertex_t *point = &load->vertex[load->point_count];
     point->x_q8 = place_q8(load, load->x);
     point->y_q8 = place_q8(load, load->y);
     point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
@@ -300,10 +299,12 @@ static int32_t height_near(const yb_load_t *load)
 {
     int32_t nearest = INT32_MAX;
     int32_t units = 0;
+    uint16_t x_q8 = place_q8(load, load->x);
+    uint16_t y_q8 = place_q8(load, load->y);
     for (int i = 0; i < load->point_count; i++) {
-        const yb_vertex_t *v = &load->map->vertex[i];
-        int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
-        int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
+        const yb_vertex_t *v = vertex_of(load, i);
+        int32_t dx = fix_minus(v->x_q8, x_q8) >> 8;
+        int32_t dy = fix_minus(v->y_q8, y_q8) >> 8;
         int32_t d = dx * dx + dy * dy;
         if (d < nearest) {
             nearest = d;
@@ -319,8 +320,8 @@ static int32_t height_near(const yb_load_t *load)
 static int next_corner(yb_load_t *load)
 {
     int k = load->corner_at;
-    load->x = k == 1 || k == 2 ? load->columns : 0;
-    load->y = k == 2 || k == 3 ? load->rows : 0;
+    load->x = ((k + 1) & 2) != 0 ? load->columns : 0;
+    load->y = (k & 2) != 0 ? load->rows : 0;
     if (k < 4)
         return CORNER;
     for (int i = 0; i < 4; i++)
@@ -346,7 +347,7 @@ static int next_step(yb_load_t *load)
 /* A number that may be negative: 0, -1, 1, -2, 2 … */
 static int signed_of(int value)
 {
-    return (value & 1) != 0 ? -(value / 2) - 1 : value / 2;
+    return value >> 1 ^ -(value & 1);
 }
 
 /* The start of an open line: `way` lattice steps along the frame, counter-clockwise from the
@@ -400,11 +401,11 @@ static int take_place(yb_load_t *load, int rest)
         load->y = (int)fix_clamp(load->y, 0, load->rows);
     }
     contour->count++;
-    if (!add_point(load, load->map->vertex[contour->first].z_q8))
+    if (!add_point(load, load->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     if (load->open)
-        return on_frame(load, &load->map->vertex[load->point_count - 1]) ? next_line(load)
-                                                                         : next_step(load);
+        return on_frame(load, &load->vertex[load->point_count - 1]) ? next_line(load)
+                                                                    : next_step(load);
     if (contour->count < 3)
         return next_step(load);
     int32_t away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));
@@ -447,9 +448,9 @@ static int take_line(yb_load_t *load, int value)
 
 /* --- Corners and spot heights --------------------------------------------------------------- */
 
-static uint32_t inner_places(const yb_load_t *load)
+static int32_t inner_places(const yb_load_t *load)
 {
-    return (uint32_t)(load->columns - 1) * (uint32_t)(load->rows - 1);
+    return (load->columns - 1) * ((int32_t)load->rows - 1);
 }
 
 /* Spot heights lie in the inner lattice points' order, row by row. The gap to the next one is
@@ -459,10 +460,9 @@ static int next_spot(yb_load_t *load)
 {
     if (load->spots == 0)
         return SECTIONS;
-    uint32_t places = inner_places(load);
-    if (load->cell >= places)
+    if (load->places_left <= 0)
         return YB_ERR_CORRUPT;
-    load->run = (uint16_t)gap_run(places - load->cell, load->spots);
+    load->run = (uint16_t)gap_run((uint32_t)load->places_left, load->spots);
     return GAP;
 }
 
@@ -472,19 +472,20 @@ static int take_gap(yb_load_t *load, int more)
         load->at = (uint16_t)(load->run - 1);
         return CELL;
     }
-    load->cell += load->run;
-    return load->cell < inner_places(load) ? (int)GAP : YB_ERR_CORRUPT;
+    load->places_left -= load->run;
+    return load->places_left > 0 ? (int)GAP : YB_ERR_CORRUPT;
 }
 
 static int take_cell(yb_load_t *load, int value)
 {
-    uint32_t columns = load->columns - 1u;
-    load->cell += (uint32_t)value;
-    if (load->cell >= inner_places(load))
+    load->places_left -= value;
+    if (load->places_left <= 0)
         return YB_ERR_CORRUPT;
-    load->x = (int)(1 + load->cell % columns);
-    load->y = (int)(1 + load->cell / columns);
-    load->cell++;
+    uint32_t columns = load->columns - 1u;
+    uint32_t place = (uint32_t)(inner_places(load) - load->places_left);
+    load->x = (int)(1 + place % columns);
+    load->y = (int)(1 + place / columns);
+    load->places_left--;
     load->spots--;
     return SPOT_HEIGHT;
 }
@@ -499,6 +500,7 @@ static int take_corner_or_spot(yb_load_t *load, int value)
         return next_corner(load);
     case SPOT_COUNT:
         load->spots = (uint16_t)value;
+        load->places_left = inner_places(load);
         return next_spot(load);
     case GAP:
         return take_gap(load, value);
@@ -547,7 +549,7 @@ static yb_status_t end_relief(yb_load_t *load)
     yb_map_t *map = load->map;
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
     uint64_t base_64th_m =
-        (uint64_t)((int64_t)load->base * yb_unit_64th_m(map->unit) + ((int32_t)1 << 21));
+        (uint64_t)(fix_wide(load->base, (int32_t)yb_unit_64th_m(map->unit)) + ((int32_t)1 << 21));
     uint32_t rest = (uint32_t)base_64th_m & 63;
     map->base_m = (int16_t)((int32_t)((uint32_t)base_64th_m / 64) - 32768);
     map->seed = load->recent >> 8 & 127;
@@ -559,7 +561,7 @@ static yb_status_t end_relief(yb_load_t *load)
             return YB_ERR_CORRUPT;
     }
     for (int i = 0; i < load->point_count; i++) {
-        if (!settle_height(map, rest, &map->vertex[i].z_q8))
+        if (!settle_height(map, rest, &load->vertex[i].z_q8))
             return YB_ERR_CORRUPT;
     }
     return YB_OK;

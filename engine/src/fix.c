@@ -15,13 +15,14 @@ static const uint16_t exp_table[33] YB_ROM = {
     8816,  9727,  10657, 11608, 12580, 13573, 14588, 15625, 16684, 17767, 18874,
     20005, 21160, 22341, 23548, 24781, 26041, 27329, 28645, 29989, 31364, 32768};
 
-/* round(16384 sin(i/64 of a right angle)) */
-static const uint16_t sine_table[65] YB_ROM = {
-    0,     402,   804,   1205,  1606,  2006,  2404,  2801,  3196,  3590,  3981,  4370,  4756,
-    5139,  5520,  5897,  6270,  6639,  7005,  7366,  7723,  8076,  8423,  8765,  9102,  9434,
-    9760,  10080, 10394, 10702, 11003, 11297, 11585, 11866, 12140, 12406, 12665, 12916, 13160,
-    13395, 13623, 13842, 14053, 14256, 14449, 14635, 14811, 14978, 15137, 15286, 15426, 15557,
-    15679, 15791, 15893, 15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384};
+/* round(16384 sin(i/64 of a right angle)); the last one is not used, but read */
+static const uint16_t sine_table[66] YB_ROM = {
+    0,     402,   804,   1205,  1606,  2006,  2404,  2801,  3196,  3590,  3981,
+    4370,  4756,  5139,  5520,  5897,  6270,  6639,  7005,  7366,  7723,  8076,
+    8423,  8765,  9102,  9434,  9760,  10080, 10394, 10702, 11003, 11297, 11585,
+    11866, 12140, 12406, 12665, 12916, 13160, 13395, 13623, 13842, 14053, 14256,
+    14449, 14635, 14811, 14978, 15137, 15286, 15426, 15557, 15679, 15791, 15893,
+    15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384, 16384};
 
 #define INVERSE(a) (((uint32_t)1 << 20) / (a))
 #define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
@@ -29,13 +30,21 @@ static const uint16_t sine_table[65] YB_ROM = {
 #define INVERSES_64(a)                                                                             \
     INVERSES_16(a), INVERSES_16((a) + 16), INVERSES_16((a) + 32), INVERSES_16((a) + 48)
 
-/* clang-format off */
-const uint32_t fix_inverses[256] YB_ROM = {
-    0, INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
-    INVERSES_16(16), INVERSES_16(32), INVERSES_16(48),
-    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)
-};
-/* clang-format on */
+const uint32_t fix_large_inverses[17] YB_ROM = {
+    0,          INVERSE(1), INVERSE(2), INVERSE(3), INVERSES_4(4), INVERSES_4(8), INVERSES_4(12),
+    INVERSE(16)};
+const uint16_t fix_small_inverses[256 - 17] YB_ROM = {
+    INVERSE(17),     INVERSE(18),      INVERSE(19),     INVERSES_4(20),
+    INVERSES_4(24),  INVERSES_4(28),   INVERSES_16(32), INVERSES_16(48),
+    INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)};
+
+/* Between an entry of a table and the next, greater one: the part has so many bits. */
+static uint32_t between(const uint16_t *entry, uint32_t part, int bits)
+{
+    uint32_t first = yb_rom_u16(entry);
+    uint32_t step = yb_rom_u16(entry + 1) - first;
+    return first + ((step * part + ((uint32_t)1 << bits >> 1)) >> bits);
+}
 
 int32_t fix_log2_q11(uint64_t a)
 {
@@ -49,11 +58,8 @@ int32_t fix_log2_q11(uint64_t a)
     uint32_t low = (uint32_t)a;
     int top = fix_log2_floor(low);
     uint32_t fraction = (low << (31 - top)) >> 15 & 0xffff;
-    uint32_t i = fraction >> 11;
-    uint32_t rest = fraction & 0x7ff;
-    uint32_t first = yb_rom_u16(&log_table[i]);
-    uint32_t step = yb_rom_u16(&log_table[i + 1]) - first;
-    return (int32_t)(exponent + top) * 2048 + (int32_t)(first + ((step * rest + 1024) >> 11));
+    uint32_t log = between(&log_table[fraction >> 11], fraction & 0x7ff, 11);
+    return (int32_t)(exponent + top) * 2048 + (int32_t)log;
 }
 
 uint32_t fix_exp2_q11(int32_t e_q11)
@@ -64,34 +70,41 @@ uint32_t fix_exp2_q11(int32_t e_q11)
     if (exponent < -1)
         return 0;
     uint32_t i = (uint32_t)e_q11 >> 6 & 31;
-    uint32_t rest = (uint32_t)e_q11 & 63;
-    uint32_t first = yb_rom_u16(&exp_table[i]);
-    uint32_t step = yb_rom_u16(&exp_table[i + 1]) - first;
-    uint32_t mantissa = 32768 + first + ((step * rest + 32) >> 6); /* Q15, 1 .. 2 */
-    if (exponent >= 15) {
-        /* The last step of the table may round up to 2.0, one bit too many at the very top. */
-        return mantissa >> 16 != 0 && exponent == 31 ? UINT32_MAX : mantissa << (exponent - 15);
-    }
-    int shift = 15 - exponent; /* 1 .. 16 */
-    return (mantissa + (1u << (shift - 1))) >> shift;
+    uint32_t mantissa = 32768 + between(&exp_table[i], (uint32_t)e_q11 & 63, 6); /* Q15, 1 .. 2 */
+    uint64_t power = (((uint64_t)mantissa << (exponent + 1)) + 32768) >> 16;
+    return power > UINT32_MAX ? UINT32_MAX : (uint32_t)power;
+}
+
+int64_t fix_wide(int32_t a, int32_t b)
+{
+    return (int64_t)a * b;
 }
 
 int32_t fix_product(int32_t a, int32_t b, int shift)
 {
-    return (int32_t)(((int64_t)a * b) >> shift);
+    return (int32_t)(fix_wide(a, b) >> shift);
 }
 
 int32_t fix_scale(int32_t a, int32_t b, int32_t c)
 {
-    return (int32_t)((int64_t)a * b / c);
+    const uint64_t product = (uint64_t)fix_wide(fix_abs(a), fix_abs(b));
+    const int32_t size = (int32_t)fix_share(product, (uint32_t)fix_abs(c), UINT32_MAX);
+    return (a ^ b ^ c) < 0 ? -size : size;
+}
+
+uint32_t fix_share(uint64_t a, uint32_t b, uint32_t most)
+{
+    a /= b;
+    return a < most ? (uint32_t)a : most;
 }
 
 int32_t fix_reciprocal(int32_t a)
 {
     /* The top 6 bits after the leading one look up, the other 8 interpolate: the chord lies up to
      * h^2/8 f'' = 2^13 2^-12 = 2 above the curve, and the table up to 2 below. */
-    int32_t low = 2 * fix_inverse(a >> 8);
-    return low - (((low - 2 * fix_inverse((a >> 8) + 1)) * (a & 255)) >> 8);
+    const uint16_t *inverse = &fix_small_inverses[(a >> 8) - 17];
+    int32_t low = 2 * yb_rom_u16(inverse);
+    return low - (((low - 2 * yb_rom_u16(inverse + 1)) * (a & 255)) >> 8);
 }
 
 uint32_t fix_sqrt(uint64_t a)
@@ -110,12 +123,7 @@ int16_t yb_sin_q14(uint16_t angle_bam)
     uint32_t quarter = angle_bam & 0x3fff;
     if ((angle_bam & 0x4000) != 0)
         quarter = 0x4000 - quarter;
-    uint32_t i = quarter >> 8;
-    int32_t value = yb_rom_u16(&sine_table[i]);
-    if (i < 64) {
-        int32_t step = yb_rom_u16(&sine_table[i + 1]) - value;
-        value += (step * (int32_t)(quarter & 255) + 128) >> 8;
-    }
+    int32_t value = (int32_t)between(&sine_table[quarter >> 8], quarter & 255, 8);
     return (int16_t)((angle_bam & 0x8000) != 0 ? -value : value);
 }
 

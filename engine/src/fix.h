@@ -55,11 +55,19 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
     return dx > dy ? dx + (3 * dy >> 3) : dy + (3 * dx >> 3);
 }
 
+/* a * b, all 64 bits. */
+int64_t fix_wide(int32_t a, int32_t b);
+
 /* The low 32 bits of a * b >> shift, 0 <= shift < 63, rounded down. */
 int32_t fix_product(int32_t a, int32_t b, int shift);
 
 /* a * b / c, rounded towards zero; c is not 0 and the result fits. */
 int32_t fix_scale(int32_t a, int32_t b, int32_t c);
+
+/* a / b, rounded down, but at most so much. Where the engine divides 64 bits they are unsigned: on
+ * a small processor signed division is a helper of its own.
+ */
+uint32_t fix_share(uint64_t a, uint32_t b, uint32_t most);
 
 /* Position of the highest set bit; a > 0. */
 static inline int fix_log2_floor(uint32_t a)
@@ -84,11 +92,13 @@ int32_t fix_log2_q11(uint64_t a);
 /* 2^(e/2048), rounded, at most UINT32_MAX; relative error below 2^-11 where the result is large. */
 uint32_t fix_exp2_q11(int32_t e_q11);
 
-/* 2^20 / a, rounded down, for 0 < a < 256. */
-extern const uint32_t fix_inverses[256] YB_ROM;
+/* 2^20 / a, rounded down, for 0 < a < 256. From 17 on it fits 16 bits. */
+extern const uint32_t fix_large_inverses[17] YB_ROM;
+extern const uint16_t fix_small_inverses[256 - 17] YB_ROM;
 static inline int32_t fix_inverse(int32_t a)
 {
-    return (int32_t)yb_rom_u32(&fix_inverses[a]);
+    return a < 17 ? (int32_t)yb_rom_u32(&fix_large_inverses[a])
+                  : (int32_t)yb_rom_u16(&fix_small_inverses[a - 17]);
 }
 
 /* 2^29 / a for 2^14 <= a < 2^15, within 4: at least 2^14, at most 2^15. */

@@ -94,7 +94,7 @@ static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_conto
         }
         int32_t along = edge_length(load, p, spot->first);
         up = fix_abs(up);
-        if ((int64_t)up * run > (int64_t)rise * along) {
+        if (fix_wide(up, run) > fix_wide(rise, along)) {
             ruler = spot;
             rise = up;
             run = along;
@@ -110,9 +110,8 @@ static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 {
     int32_t far = edge_length(load, p, summit);
     for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
-        int q = end_of(load, e);
         if (region_of(load, e) == load->here && entry_of(load, e) < NO_TRIANGLE &&
-            height_at(load, q) == height_at(load, p) && edge_length(load, p, q) < far)
+            rise_of(load, e) == 0 && half_length(load, e) < far)
             return true;
     }
     return false;
@@ -121,7 +120,7 @@ static bool by_a_ridge(const yb_load_t *load, int p, int summit)
 /* All of a leaf's points to its summit. First all wishes, then all links: a wish sees the mesh that
  * the others saw.
  */
-static yb_status_t fan(yb_load_t *load, const yb_contour_t *line)
+static void fan(yb_load_t *load, const yb_contour_t *line)
 {
     int end = line->first + line->count;
     for (int p = line->first; p < end; p++) {
@@ -130,11 +129,9 @@ static yb_status_t fan(yb_load_t *load, const yb_contour_t *line)
         load->wish[p] = (yb_index_t)(linked ? ruler->first : p);
     }
     for (int p = line->first; p < end; p++) {
-        int summit = load->wish[p];
-        if (summit != p && mesh_link(load, p, summit) < 0)
-            return YB_ERR_LIMIT;
+        if (load->wish[p] != p)
+            mesh_link(load, p, load->wish[p]);
     }
-    return YB_OK;
 }
 
 /* --- 4.2, 5.1 (3), 5.2: links down the slope ------------------------------------------------- */
@@ -188,13 +185,13 @@ static void find_next(const yb_load_t *load, search_t *search)
 
 /* Links p to the next line where the segment to its peak comes nearest to a point of it. Only to
  * points that are at most a quarter farther than the nearest: where there is none, the slope leads
- * elsewhere, whatever the peak. YB_MORE: it sees none of the first few.
+ * elsewhere, whatever the peak. Nor if it sees none of the first few.
  */
-static yb_status_t link_down(yb_load_t *load, int p, const yb_contour_t *line)
+static void link_down(yb_load_t *load, int p, const yb_contour_t *line)
 {
     const yb_contour_t *ruler = ruler_of(load, p, line);
     if (ruler == NULL)
-        return YB_OK;
+        return;
     search_t search = {.h = height_of(load, line_before(load, ruler)),
                        .from = p,
                        .peak = p,
@@ -204,12 +201,11 @@ static yb_status_t link_down(yb_load_t *load, int p, const yb_contour_t *line)
     search.far = search.off + (search.off >> 2);
     search.peak = ruler->first;
     search.off = -1;
-    yb_status_t status = YB_MORE;
-    for (int tries = 0; tries < MOST_TRIES && status == YB_MORE; tries++) {
+    for (int tries = 0; tries < MOST_TRIES; tries++) {
         find_next(load, &search);
-        status = search.point < 0 ? YB_OK : mesh_link(load, p, search.point);
+        if (search.point < 0 || mesh_link(load, p, search.point))
+            return;
     }
-    return status;
 }
 
 /* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
@@ -229,24 +225,24 @@ static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
     return line->open || (line->left == load->here) == turns_left(load, line);
 }
 
-static yb_status_t apply_rules(yb_load_t *load)
+static bool apply_rules(yb_load_t *load)
 {
     const yb_contour_t *line = line_after(load, NULL);
-    if (line_after(load, line) == NULL)
-        return fan(load, line);
+    if (line_after(load, line) == NULL) {
+        fan(load, line);
+        return true;
+    }
     look_beyond(load);
-    if (saddles_add(load) != YB_OK)
-        return YB_ERR_LIMIT;
+    if (!saddles_add(load))
+        return false;
     for (; line != NULL; line = line_after(load, line)) {
         if (!is_outer(load, line))
             continue;
         int end = line->first + line->count;
-        for (int p = line->first; p < end; p++) {
-            if (link_down(load, p, line) < 0)
-                return YB_ERR_LIMIT;
-        }
+        for (int p = line->first; p < end; p++)
+            link_down(load, p, line);
     }
-    return YB_OK;
+    return true;
 }
 
 /* Does an earlier line, or the left side of this one, bound the region too? */
@@ -259,17 +255,17 @@ static bool seen_before(const yb_load_t *load, int side)
     return false;
 }
 
-yb_status_t links_add(yb_load_t *load)
+bool links_add(yb_load_t *load)
 {
+    load->first_saddle = load->map->vertex_count;
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
         load->here = region_beside(load, side);
-        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) &&
-            apply_rules(load) != YB_OK)
-            return YB_ERR_LIMIT;
+        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) && !apply_rules(load))
+            return false;
     }
     mesh_make_delaunay(load);
-    return YB_OK;
+    return true;
 }
 
 yb_rule_t yb_vertex_rule(const yb_load_t *load, yb_index_t vertex)

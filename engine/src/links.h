@@ -40,7 +40,7 @@ const yb_contour_t *line_after(const yb_load_t *load, const yb_contour_t *line);
 /* The line of the region behind which a spot height lies, or NULL. */
 const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot);
 
-/* 5.1 and 7: link points between neighbouring peaks. */
-YB_MUST_CHECK yb_status_t saddles_add(yb_load_t *load);
+/* 5.1 and 7: link points between neighbouring peaks. False: there is no room for them. */
+YB_MUST_CHECK bool saddles_add(yb_load_t *load);
 
 #endif

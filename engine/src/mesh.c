@@ -22,6 +22,11 @@ int region_of(const yb_load_t *load, half_t e)
     return load->region[triangle_of(e)];
 }
 
+int region_at(const yb_load_t *load, int v)
+{
+    return load->region[load->star[v]];
+}
+
 int origin_of(const yb_load_t *load, half_t e)
 {
     const yb_index_t *corner = load->map->triangle[0]; /* three a triangle, in a row */
@@ -36,6 +41,11 @@ int end_of(const yb_load_t *load, half_t e)
 int apex_of(const yb_load_t *load, half_t e)
 {
     return origin_of(load, last_of(e));
+}
+
+int32_t height_at(const yb_load_t *load, int v)
+{
+    return vertex_of(load, v)->z_q8;
 }
 
 int entry_of(const yb_load_t *load, half_t e)
@@ -152,6 +162,11 @@ int32_t half_length(const yb_load_t *load, half_t e)
     return edge_length(load, origin_of(load, e), end_of(load, e));
 }
 
+int32_t rise_of(const yb_load_t *load, half_t e)
+{
+    return height_at(load, end_of(load, e)) - height_at(load, origin_of(load, e));
+}
+
 uint32_t edge_key(const yb_load_t *load, half_t e)
 {
     uint32_t a = (uint32_t)origin_of(load, e);
@@ -159,23 +174,32 @@ uint32_t edge_key(const yb_load_t *load, half_t e)
     return a < b ? a << 16 | b : b << 16 | a;
 }
 
+bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    return a->x_q8 == b->x_q8 && a->y_q8 == b->y_q8;
+}
+
+void find_middle_of(const yb_vertex_t *a, const yb_vertex_t *b, yb_vertex_t *middle)
+{
+    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
+    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+}
+
 void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle)
 {
     const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
-    const yb_vertex_t *b = vertex_of(load, end_of(load, e));
-    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
-    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
+    find_middle_of(a, vertex_of(load, end_of(load, e)), middle);
     middle->z_q8 = a->z_q8;
 }
 
-yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
+bool mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
 {
     yb_map_t *map = load->map;
     if (map->vertex_count >= load->vertices_promised)
-        return YB_ERR_LIMIT;
-    yb_vertex_t *v = &map->vertex[map->vertex_count++];
+        return false;
+    yb_vertex_t *v = &load->vertex[map->vertex_count++];
     v->x_q8 = at->x_q8;
     v->y_q8 = at->y_q8;
     v->z_q8 = at->z_q8;
-    return YB_OK;
+    return true;
 }

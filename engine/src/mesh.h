@@ -73,8 +73,9 @@ half_t last_of(half_t e);
  */
 half_t half_after(const yb_load_t *load, half_t e);
 
-/* The region that the half's triangle lies in, after regions_find. */
+/* The region that the half's triangle lies in, after regions_find; one that meets at vertex v. */
 int region_of(const yb_load_t *load, half_t e);
+int region_at(const yb_load_t *load, int v);
 
 int origin_of(const yb_load_t *load, half_t e);
 int end_of(const yb_load_t *load, half_t e);
@@ -114,13 +115,10 @@ half_t spoke_to(const yb_load_t *load, int a, int b);
 
 static inline const yb_vertex_t *vertex_of(const yb_load_t *load, int v)
 {
-    return &load->map->vertex[v];
+    return &load->vertex[v];
 }
 
-static inline int32_t height_at(const yb_load_t *load, int v)
-{
-    return vertex_of(load, v)->z_q8;
-}
+int32_t height_at(const yb_load_t *load, int v);
 
 bool on_frame(const yb_load_t *load, const yb_vertex_t *v);
 
@@ -149,7 +147,16 @@ int32_t edge_length(const yb_load_t *load, int a, int b);
 
 int32_t half_length(const yb_load_t *load, half_t e);
 
-/* The middle of an edge, at the height of its beginning; without slopes. */
+/* Height at the end of a half less that at its origin. */
+int32_t rise_of(const yb_load_t *load, half_t e);
+
+/* Do two vertices lie at one place? */
+bool same_place(const yb_vertex_t *a, const yb_vertex_t *b);
+
+/* The place half way between two vertices, and the middle of an edge, at the height of its
+ * beginning; without slopes.
+ */
+void find_middle_of(const yb_vertex_t *a, const yb_vertex_t *b, yb_vertex_t *middle);
 void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle);
 
 /* The edge as a number, the lower end's times 65536 and the higher end's: an order that does not
@@ -157,59 +164,72 @@ void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle);
  */
 uint32_t edge_key(const yb_load_t *load, half_t e);
 
+static inline int lower_end(const yb_load_t *load, half_t e)
+{
+    return (int)(edge_key(load, e) >> 16);
+}
+
+/* --- Stages ----------------------------------------------------------------------------------- */
+
+/* The first three answer false where the contours are corrupt, the others where the mesh has no
+ * room for what they add.
+ */
+
 /* Checks the contours against the frame, tells open from closed ones, adds the corners that no
  * line ends at, and gives every corner its height (SPEC 1.5, 2.1).
  */
-YB_MUST_CHECK yb_status_t border_close(yb_load_t *load);
+YB_MUST_CHECK bool border_close(yb_load_t *load);
 
-/* The constrained Delaunay triangulation of all vertices and contour edges (SPEC 2.2); corrupt if
+/* The constrained Delaunay triangulation of all vertices and contour edges (SPEC 2.2); false if
  * contours cross or touch.
  */
-YB_MUST_CHECK yb_status_t mesh_triangulate(yb_load_t *load);
+YB_MUST_CHECK bool mesh_triangulate(yb_load_t *load);
 
-/* Adds a vertex, of which x, y and z are given, that lies in no triangle yet; YB_ERR_LIMIT if the
- * code did not promise so many.
+/* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
+YB_MUST_CHECK bool regions_find(yb_load_t *load);
+
+/* Section 3: a summit, or the bottom of a pit, for every region of one height (SPEC 2.4). */
+YB_MUST_CHECK bool summits_add(yb_load_t *load);
+
+/* Rules 4, 5 and 7: link points between peaks (saddles.c), links from summits and down the slopes
+ * (SPEC 2.5).
  */
-YB_MUST_CHECK yb_status_t mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at);
+YB_MUST_CHECK bool links_add(yb_load_t *load);
+
+/* Rules 6: points along the middle of whatever still is flat (SPEC 2.6). */
+YB_MUST_CHECK bool skeleton_add(yb_load_t *load);
+
+/* Slopes, amplitude, and the tables of noise and reach (SPEC 3). */
+void relief_prepare(const yb_load_t *load);
+
+/* --- Changes ---------------------------------------------------------------------------------- */
+
+/* Adds a vertex, of which x, y and z are given, that lies in no triangle yet; false if the code did
+ * not promise so many.
+ */
+YB_MUST_CHECK bool mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at);
 
 /* The same, and splits the triangle that it lies in at it, or, on an edge, both. Nothing is
  * flipped.
  */
-YB_MUST_CHECK yb_status_t mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at);
+YB_MUST_CHECK bool mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at);
 
 /* Makes the edges round the new vertex p Delaunay. */
 void mesh_legalise(yb_load_t *load, int p);
 
-/* Makes ab a marked edge; corrupt if another or a vertex is in its way. */
-YB_MUST_CHECK yb_status_t mesh_force_edge(yb_load_t *load, int a, int b);
+/* Makes ab a marked edge; false if another or a vertex is in its way. */
+bool mesh_force_edge(yb_load_t *load, int a, int b);
 
 /* Flips what is not marked until it is Delaunay. */
 void mesh_make_delaunay(yb_load_t *load);
 
 /* Can ab become an edge? Not if a marked edge or a vertex is in its way. */
-bool mesh_sees(const yb_load_t *load, int a, int b);
+bool mesh_sees(yb_load_t *load, int a, int b);
 
-/* Makes it one; YB_MORE if it cannot. */
-YB_MUST_CHECK yb_status_t mesh_link(yb_load_t *load, int a, int b);
-
-/* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
-YB_MUST_CHECK yb_status_t regions_find(yb_load_t *load);
+/* Makes it one if it can. */
+bool mesh_link(yb_load_t *load, int a, int b);
 
 /* The region on side k of the contours: the left one of contour k / 2, or, k odd, its right one. */
 int region_beside(const yb_load_t *load, int k);
-
-/* Section 3: a summit, or the bottom of a pit, for every region of one height (SPEC 2.4). */
-YB_MUST_CHECK yb_status_t summits_add(yb_load_t *load);
-
-/* Rules 4, 5 and 7: link points between peaks (saddles.c), links from summits and down the slopes
- * (SPEC 2.5).
- */
-YB_MUST_CHECK yb_status_t links_add(yb_load_t *load);
-
-/* Rules 6: points along the middle of whatever still is flat (SPEC 2.6). */
-YB_MUST_CHECK yb_status_t skeleton_add(yb_load_t *load);
-
-/* Slopes, amplitude, and the tables of noise and reach (SPEC 3). */
-void relief_prepare(const yb_load_t *load);
 
 #endif

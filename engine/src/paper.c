@@ -138,13 +138,14 @@ static yb_status_t take_dimension(yb_load_t *load, uint32_t d)
 /* A point has come: it lies in the frame or the code is corrupt. */
 static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 {
-    if (x < 0 || y < 0 || x > load->map->east_q8 >> 8 || y > load->map->north_q8 >> 8)
+    /* As unsigned numbers, what is below zero is far beyond the other sides. */
+    if ((uint32_t)x > load->map->east_q8 >> 8 || (uint32_t)y > load->map->north_q8 >> 8)
         return YB_ERR_CORRUPT;
     const yb_contour_t *contour = &load->contour[load->at];
-    yb_vertex_t *point = &load->map->vertex[load->map->vertex_count];
+    yb_vertex_t *point = &load->vertex[load->map->vertex_count];
     point->x_q8 = (uint16_t)(x << 8);
     point->y_q8 = (uint16_t)(y << 8);
-    point->z_q8 = load->map->vertex[contour->first].z_q8;
+    point->z_q8 = load->vertex[contour->first].z_q8;
     load->map->vertex_count++;
     load->state = STEP;
     if (load->map->vertex_count < contour->first + contour->count)
@@ -156,7 +157,7 @@ static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 
 static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 {
-    int32_t *height = &load->map->vertex[load->map->vertex_count].z_q8;
+    int32_t *height = &load->vertex[load->map->vertex_count].z_q8;
     *height = (int32_t)coded;
     load->state = START;
     return settle_height(load->map, 0, height) ? YB_MORE : YB_ERR_CORRUPT;
@@ -165,12 +166,12 @@ static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 /* Six bits as a signed number, times the coded shift. */
 static int32_t difference(const yb_load_t *load, uint32_t six)
 {
-    return ((int32_t)(six & 63) - ((six & 32) != 0 ? 64 : 0)) * (1 << (load->flags & 3));
+    return ((int32_t)((six & 63) ^ 32) - 32) * (1 << (load->flags & 3));
 }
 
 static yb_status_t take_step(yb_load_t *load, uint32_t twelve)
 {
-    const yb_vertex_t *last = &load->map->vertex[load->map->vertex_count - 1];
+    const yb_vertex_t *last = &load->vertex[load->map->vertex_count - 1];
     return take_point(load, (last->x_q8 >> 8) + difference(load, twelve >> 6),
                       (last->y_q8 >> 8) + difference(load, twelve));
 }

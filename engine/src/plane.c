@@ -114,9 +114,13 @@ static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t
 {
     const int32_t dx = to->x_q4 - (int32_t)from->x_q4;
     const int32_t dy = to->y_q4 - (int32_t)from->y_q4;
-    const int64_t slope = dy <= RASTER_HIGH_Q4 && raster_is_within(dx, 2 * RASTER_WIDE_Q4)
-                              ? rows_small_slope(dx, dy)
-                              : (int64_t)dx * ((int32_t)1 << ROWS_FRACTION) / dy;
+    int64_t slope;
+    if (dy <= RASTER_HIGH_Q4 && raster_is_within(dx, 2 * RASTER_WIDE_Q4)) {
+        slope = rows_small_slope(dx, dy);
+    } else {
+        slope = (int64_t)(((uint64_t)fix_abs(dx) << ROWS_FRACTION) / (uint32_t)dy);
+        slope = dx < 0 ? -slope : slope;
+    }
     const int64_t start = (int64_t)(from->x_q4 + 8) * ((int32_t)1 << ROWS_FRACTION) - 1;
     return (long_side_t){start + slope * (y * 16 + 8 - from->y_q4), slope * 16};
 }

@@ -6,34 +6,35 @@
  */
 #include "mesh.h"
 
-static yb_triangle_t root_of(yb_load_t *load, yb_triangle_t t)
+static int root_of(yb_load_t *load, int t)
 {
     yb_triangle_t *root = load->root;
-    while (root[t] != t) {
+    while ((int)root[t] != t) {
         root[t] = root[root[t]]; /* halve the path */
-        t = root[t];
+        t = (int)root[t];
     }
     return t;
 }
 
-yb_status_t regions_find(yb_load_t *load)
+bool regions_find(yb_load_t *load)
 {
-    for (yb_triangle_t t = 0; t < load->map->triangle_count; t++)
-        load->root[t] = t;
+    const int count = (int)load->map->triangle_count;
+    for (int t = 0; t < count; t++)
+        load->root[t] = (yb_triangle_t)t;
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
-        yb_triangle_t t = (yb_triangle_t)triangle_of(e);
+        int t = triangle_of(e);
         int u = entry_of(load, e);
-        if (u >= (int)t) /* each edge once; not across the frame, not across a contour */
+        if (u >= t) /* each edge once; not across the frame, not across a contour */
             continue;
         /* The smaller index wins: a root is the first triangle of its region. */
-        yb_triangle_t a = root_of(load, t);
-        yb_triangle_t b = root_of(load, (yb_triangle_t)u);
-        load->root[a > b ? a : b] = a > b ? b : a;
+        int a = root_of(load, t);
+        int b = root_of(load, u);
+        load->root[fix_max(a, b)] = (yb_triangle_t)fix_min(a, b);
     }
     /* From roots to numbers: a triangle's parent has a smaller index, so it is done. */
     load->region_count = 0;
-    for (yb_triangle_t t = 0; t < load->map->triangle_count; t++) {
-        yb_triangle_t parent = load->root[t];
+    for (int t = 0; t < count; t++) {
+        int parent = (int)load->root[t];
         load->region[t] = load->region[parent];
         if (parent == t)
             load->region[t] = (yb_index_t)load->region_count++;
@@ -42,7 +43,7 @@ yb_status_t regions_find(yb_load_t *load)
     for (int i = 0; i < load->contour_count; i++) {
         yb_contour_t *contour = &load->contour[i];
         int a = contour->first;
-        contour->left = contour->right = load->region[load->star[a]];
+        contour->left = contour->right = (yb_index_t)region_at(load, a);
         if (contour->count > 1) {
             contour->left = (yb_index_t)region_of(load, spoke_to(load, a, a + 1));
             contour->right = (yb_index_t)region_of(load, spoke_to(load, a + 1, a));
@@ -50,7 +51,7 @@ yb_status_t regions_find(yb_load_t *load)
         }
     }
     /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */
-    return load->region_count == lines + 1 ? YB_OK : YB_ERR_CORRUPT;
+    return load->region_count == lines + 1;
 }
 
 int region_beside(const yb_load_t *load, int k)

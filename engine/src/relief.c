@@ -20,40 +20,66 @@ enum {
 
 /* --- The midpoint of an edge ------------------------------------------------------------------ */
 
-static int32_t smooth_rise(const yb_vertex_t *a, const yb_vertex_t *b)
+int relief_square_class(uint32_t square)
 {
-    return relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, fix_minus(b->x_q8, a->x_q8),
-                        fix_minus(b->y_q8, a->y_q8));
+    if (square < 2)
+        return 0;
+    int top = fix_log2_floor(square);
+    return 2 * top + (int)(square >> (top - 1) & 1);
+}
+
+int relief_class(int32_t dx, int32_t dy)
+{
+    return relief_square_class(relief_half_square(dx, dy));
+}
+
+void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
+{
+    const yb_index_t *at = yb_map_triangle(map, triangle);
+    for (int i = 0; i < 3; i++)
+        corner[i] = &map->vertex[at[i]];
+}
+
+/* The differences of two vertices in plan, and relief_bulge of their edge. */
+typedef struct {
+    int32_t dx, dy, bulge;
+} edge_t;
+
+static edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    int32_t dx = fix_minus(b->x_q8, a->x_q8);
+    int32_t dy = fix_minus(b->y_q8, a->y_q8);
+    return (edge_t){dx, dy, relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, dx, dy)};
 }
 
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle)
 {
-    int32_t dx = fix_minus(b->x_q8, a->x_q8);
-    int32_t dy = fix_minus(b->y_q8, a->y_q8);
-    middle->x_q8 = fix_middle(a->x_q8, b->x_q8);
-    middle->y_q8 = fix_middle(a->y_q8, b->y_q8);
-    int32_t z = (a->z_q8 + b->z_q8) >> 1;
-    if (map->smooth)
-        z += smooth_rise(a, b);
-    middle->z_q8 = z + relief_rough(map, relief_place(middle), relief_class(dx, dy), dx, dy,
-                                    b->z_q8 - a->z_q8);
+    const edge_t edge = edge_of(a, b);
+    const int32_t rise = b->z_q8 - a->z_q8;
+    find_middle_of(a, b, middle);
+    middle->z_q8 = (a->z_q8 + b->z_q8) >> 1;
     middle->gx_q11 = (int16_t)((a->gx_q11 + b->gx_q11) >> 1);
     middle->gy_q11 = (int16_t)((a->gy_q11 + b->gy_q11) >> 1);
+    if (map->smooth)
+        middle->z_q8 += edge.bulge;
+    if (map->detail) {
+        int32_t noise = relief_shake(map, relief_place(middle), relief_class(edge.dx, edge.dy));
+        middle->z_q8 += relief_limit(noise, edge.dx, edge.dy, rise);
+    }
 }
 
-void relief_bound(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c,
-                  relief_bound_t *bound)
+void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound)
 {
-    const yb_vertex_t *corner[4] = {a, b, c, a};
     int32_t rise = 0;
     bound->longest = 0;
-    for (int i = 0; i < 3; i++) {
+    const yb_vertex_t *q = corner[0];
+    for (int i = 2; i >= 0; i--) {
         const yb_vertex_t *p = corner[i];
-        const yb_vertex_t *q = corner[i + 1];
-        int class = relief_class(fix_minus(q->x_q8, p->x_q8), fix_minus(q->y_q8, p->y_q8));
-        bound->longest = (int)fix_max(bound->longest, class);
-        rise = fix_max(rise, fix_abs(smooth_rise(p, q)));
+        const edge_t edge = edge_of(p, q);
+        bound->longest = (int)fix_max(bound->longest, relief_class(edge.dx, edge.dy));
+        rise = fix_max(rise, fix_abs(edge.bulge));
+        q = p;
     }
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */
@@ -67,34 +93,39 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
     /* A reach too large for its table is one that gravity limits: the noise of an edge is at most
      * its length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L.
      */
-    if (map->reach_q8[bound->longest] == UINT16_MAX)
+    int32_t reach = map->reach_q8[bound->longest];
+    if (reach == UINT16_MAX)
         return bound->bulge_q8 + MOST_REACH_Q8;
     /* Classes of the halved edges go down by four; those below the shortest do not count. */
     int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
-    return bound->bulge_q8 + map->reach_q8[bound->longest] -
-           (uncounted >= 0 ? map->reach_q8[uncounted] : 0);
+    if (uncounted >= 0)
+        reach -= map->reach_q8[uncounted];
+    return bound->bulge_q8 + reach;
 }
 
 /* --- The constants of the map ----------------------------------------------------------------- */
 
 /* The slope -sum / sum_z, with 11 bits, cut: sums count heights in 1/256 step and plan differences
- * in 1/64 step, 2 bits; 9 more make 2^58 in all, and the steepest slope less than 2^62. Counted
- * from the steepest one downwards, so that the division rounds down, like everything.
+ * in 1/64 step, 2 bits; 9 more make 2^58 in all. Counted from the steepest one downwards, so that
+ * the division rounds down, like everything. 0 where it is flat all round.
  */
-static int16_t slope_q11(int64_t sum, int64_t sum_z)
+static int32_t slope_q11(int64_t sum, uint32_t sum_z)
 {
     const int32_t most = YB_MAX_SLOPE_Q11;
-    int64_t above = most * sum_z - sum * 512;
-    int64_t slope = above < 0 ? 0 : above / sum_z;
-    return (int16_t)((slope > 2 * most ? 2 * most : (int32_t)slope) - most);
+    int64_t above = ((int64_t)sum_z * 16 - sum) * 512;
+    if (sum_z == 0)
+        return 0;
+    return above < 0 ? -most
+                     : (int32_t)fix_share((uint64_t)above, sum_z, 2 * YB_MAX_SLOPE_Q11) - most;
 }
 
 /* Slope of the smooth surface at v: the area-weighted mean over the triangles that meet there, flat
  * ones left out. The upward normals n of triangles twice their area long are just summed: the slope
  * is -(sum of n_x) / (sum of n_z). Plan differences are within 2^14 1/64 steps and heights
- * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49.
+ * within 2^17: a product is within 2^31, a normal 2^32, and a star of 2^17 triangles 2^49; n_z,
+ * twice the area, within that of the frame: 2^29.
  */
-static void find_slope(const yb_load_t *load, int v)
+static void find_slope(const yb_load_t *load, int v, int32_t slope[2])
 {
     int64_t sum[3] = {0, 0, 0};
     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
@@ -105,49 +136,42 @@ static void find_slope(const yb_load_t *load, int v)
         int j = 1;
         int k = 2;
         for (int i = 0; i < 3 && (right[2] | left[2]) != 0; i++) {
-            sum[i] += (int64_t)right[j] * left[k] - (int64_t)right[k] * left[j];
+            sum[i] += fix_wide(right[j], left[k]) - fix_wide(right[k], left[j]);
             j = k;
             k = i;
         }
     }
-    yb_vertex_t *a = &load->map->vertex[v];
-    bool level = sum[2] == 0; /* flat all round */
-    a->gx_q11 = level ? 0 : slope_q11(sum[0], sum[2]);
-    a->gy_q11 = level ? 0 : slope_q11(sum[1], sum[2]);
+    for (int i = 0; i < 2; i++)
+        slope[i] = slope_q11(sum[i], (uint32_t)sum[2]);
 }
 
 /* Keeps the parabolas on the edges at v from overshooting: none may begin more than half as steep
  * again as its chord, in the chord's direction (one up to twice as steep would still be monotone).
- * Slopes are at most 2^13 and plan differences below 2^16: s is within 2^30, in 1/2048 height
- * units; rises are within 2^18, so 1.5 · 2048 times that is below 2^30.
+ * Slopes are at most 2^13 and plan differences below 2^14 1/64 steps: s is within 2^28, in 1/512
+ * height units; rises are within 2^18, so 1.5 · 512 times that is below 2^28.
  */
-static void limit_slope(const yb_load_t *load, int v)
+static void limit_slope(const yb_load_t *load, int v, int32_t slope[2])
 {
-    yb_vertex_t *a = &load->map->vertex[v];
     int32_t share_q15 = 32768;
     half_t next = first_spoke(load, v);
     while (next != NO_HALF) { /* from neighbour to neighbour: the last triangle may have two */
         half_t e = next;
         next = spoke_after(load, e);
         for (int i = next == NO_HALF ? 0 : 1; i < 2; i++) {
-            const yb_vertex_t *b = vertex_of(load, i == 0 ? apex_of(load, e) : end_of(load, e));
-            int32_t s =
-                a->gx_q11 * fix_minus(b->x_q8, a->x_q8) + a->gy_q11 * fix_minus(b->y_q8, a->y_q8);
-            int32_t most = (b->z_q8 - a->z_q8) * 3072;
-            if ((s > 0) == (most > 0) && most != 0 && fix_abs(s) > fix_abs(most))
+            int32_t way[3];
+            find_way(load, v, i == 0 ? apex_of(load, e) : end_of(load, e), way);
+            int32_t s = slope[0] * way[0] + slope[1] * way[1];
+            int32_t most = way[2] * 768;
+            if (most < 0) {
+                s = -s;
+                most = -most;
+            }
+            if (most > 0 && s > most)
                 share_q15 = fix_min(share_q15, fix_scale(most, 32768, s));
         }
     }
-    a->gx_q11 = (int16_t)((a->gx_q11 * share_q15) >> 15);
-    a->gy_q11 = (int16_t)((a->gy_q11 * share_q15) >> 15);
-}
-
-/* log2, in 1/2048, of the square of an edge's length in steps; from its squared half length in
- * 1/256 steps: 4 / 2^16.
- */
-static int32_t log2_square_q11(uint32_t half_square)
-{
-    return fix_log2_q11(half_square) - 14 * ONE_Q11;
+    for (int i = 0; i < 2; i++)
+        slope[i] = (slope[i] * share_q15) >> 15;
 }
 
 /* log2 of the mean over all edges of rise^2 / L^2H, in 1/2048 and q8 heights, or NOTHING_Q11 if
@@ -162,13 +186,12 @@ static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
         if ((entry_of(load, e) & NO_TRIANGLE) < triangle_of(e))
             continue; /* each edge once; those of the frame too */
         edges++;
-        const yb_vertex_t *a = vertex_of(load, origin_of(load, e));
-        const yb_vertex_t *b = vertex_of(load, end_of(load, e));
-        uint32_t rise = (uint32_t)fix_abs(b->z_q8 - a->z_q8);
+        uint32_t rise = (uint32_t)fix_abs(rise_of(load, e));
         if (rise == 0)
             continue;
-        int32_t square = log2_square_q11(
-            relief_half_square(fix_minus(b->x_q8, a->x_q8), fix_minus(b->y_q8, a->y_q8)));
+        int b = end_of(load, e);
+        /* In steps, of which a square has 2^12 square 1/64 steps. */
+        int32_t square = fix_log2_q11((uint32_t)dot(load, origin_of(load, e), b, b)) - 12 * ONE_Q11;
         int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
         sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
                                    : (uint64_t)fix_exp2_q11(term) << 8;
@@ -227,10 +250,10 @@ static int32_t most_stray(const yb_map_t *map)
 {
     int32_t farthest = 0;
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
-        const yb_index_t *corner = map->triangle[t];
+        const yb_vertex_t *corner[3];
         relief_bound_t bound;
-        relief_bound(&map->vertex[corner[0]], &map->vertex[corner[1]], &map->vertex[corner[2]],
-                     &bound);
+        relief_corners(map, t, corner);
+        relief_bound(corner, &bound);
         farthest = fix_max(farthest, relief_reach(map, &bound, 0));
     }
     return farthest;
@@ -239,13 +262,20 @@ static int32_t most_stray(const yb_map_t *map)
 void relief_prepare(const yb_load_t *load)
 {
     yb_map_t *map = load->map;
-    map->low_q8 = map->high_q8 = map->vertex[0].z_q8;
+    int32_t low = INT32_MAX;
+    int32_t high = INT32_MIN;
     for (int i = 0; i < map->vertex_count; i++) {
-        map->low_q8 = fix_min(map->low_q8, map->vertex[i].z_q8);
-        map->high_q8 = fix_max(map->high_q8, map->vertex[i].z_q8);
-        find_slope(load, i);
-        limit_slope(load, i);
+        yb_vertex_t *v = &load->vertex[i];
+        int32_t slope[2];
+        low = fix_min(low, v->z_q8);
+        high = fix_max(high, v->z_q8);
+        find_slope(load, i, slope);
+        limit_slope(load, i, slope);
+        v->gx_q11 = (int16_t)slope[0];
+        v->gy_q11 = (int16_t)slope[1];
     }
+    map->low_q8 = low;
+    map->high_q8 = high;
     int32_t hurst_q8 = map->hurst_q8m1 + 1;
     fill_tables(map, log2_amplitude(load, hurst_q8), hurst_q8);
     map->stray_q8 = most_stray(map);

@@ -20,18 +20,9 @@ static inline uint32_t relief_half_square(int32_t dx, int32_t dy)
 }
 
 /* The length class of an edge by that: two to an octave, at most 61. */
-static inline int relief_square_class(uint32_t square)
-{
-    if (square < 2)
-        return 0;
-    int top = fix_log2_floor(square);
-    return 2 * top + (int)(square >> (top - 1) & 1);
-}
+int relief_square_class(uint32_t square);
 
-static inline int relief_class(int32_t dx, int32_t dy)
-{
-    return relief_square_class(relief_half_square(dx, dy));
-}
+int relief_class(int32_t dx, int32_t dy);
 
 /* Is the midpoint of an edge of these differences on the 1/256 lattice? */
 static inline bool relief_splits(int32_t dx, int32_t dy)
@@ -93,16 +84,22 @@ static inline int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_
     return fix_clamp(noise, -limit, limit);
 }
 
+/* The noise at a midpoint of an edge of a class: scale < 2^16, noise within 2^9, so the product is
+ * within 2^25.
+ */
+static inline int32_t relief_shake(const yb_map_t *map, uint32_t middle, int class)
+{
+    int32_t noise = map->noise[class] * relief_noise(middle, map->seed);
+    return (noise + (1 << (RELIEF_NOISE_SHIFT - 1))) >> RELIEF_NOISE_SHIFT;
+}
+
 /* The rough part at a midpoint of an edge with this class, these differences and this rise. */
 static inline int32_t relief_rough(const yb_map_t *map, uint32_t middle, int class, int32_t dx,
                                    int32_t dy, int32_t rise)
 {
     if (!map->detail)
         return 0;
-    /* scale < 2^16, noise within 2^9: the product is within 2^25. */
-    int32_t scale = map->noise[class];
-    int32_t noise = (scale * relief_noise(middle, map->seed) + (1 << (RELIEF_NOISE_SHIFT - 1))) >>
-                    RELIEF_NOISE_SHIFT;
+    int32_t noise = relief_shake(map, middle, class);
     /* Nearly always well within its limit: no edge of a class is shorter than twice the root of its
      * squared half length, which is at least 2^(class / 2), and fix_length is at most 2.8 % and 1
      * below that: at least 31/16 2^(class / 4) - 1. */
@@ -110,6 +107,9 @@ static inline int32_t relief_rough(const yb_map_t *map, uint32_t middle, int cla
         return noise;
     return relief_limit(noise, dx, dy, rise);
 }
+
+/* The corners of a triangle. */
+void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3]);
 
 /* The midpoint of the edge ab, which relief_splits. */
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
@@ -121,8 +121,7 @@ typedef struct {
     int longest;
 } relief_bound_t;
 
-void relief_bound(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c,
-                  relief_bound_t *bound);
+void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound);
 
 /* How far refinement can move any point of the triangle from its plane, at most, if no edge of a
  * class below `shortest` is split.

@@ -22,7 +22,7 @@ static int32_t other_height(const yb_load_t *load, int32_t h)
             line = line_after(load, line);
         } else {
             int corner = load->corner[k++];
-            if (load->region[load->star[corner]] == load->here)
+            if (region_at(load, corner) == load->here)
                 z = height_at(load, corner);
         }
         if (z != h && (nearest == h || fix_abs(z - h) < fix_abs(nearest - h)))
@@ -31,11 +31,13 @@ static int32_t other_height(const yb_load_t *load, int32_t h)
     return nearest;
 }
 
-/* The segment between two peaks, and a part of it, in 1/65536: from where it leaves the line of the
- * first for good to where it enters that of the second.
+/* Two peaks, the lines that they stand behind, and the part of the segment between them, in
+ * 1/65536, from where it leaves the line of the first for good to where it enters that of the
+ * second.
  */
 typedef struct {
-    int a, b;
+    int peak[2];
+    const yb_contour_t *line[2];
     int32_t leaves, enters;
 } gap_t;
 
@@ -62,7 +64,7 @@ static int32_t find_crossing(const yb_load_t *load, const yb_contour_t *line, co
     int p = line->first + line->count - 1;
     for (int k = 0; k < line->count; k++) {
         int q = line->first + k;
-        int32_t at = k == 0 && line->open ? -1 : crossing(load, gap->a, gap->b, p, q);
+        int32_t at = k == 0 && line->open ? -1 : crossing(load, gap->peak[0], gap->peak[1], p, q);
         if (at > gap->leaves && at < gap->enters && (found < 0 || (at > found) == last))
             found = at;
         p = q;
@@ -71,13 +73,12 @@ static int32_t find_crossing(const yb_load_t *load, const yb_contour_t *line, co
 }
 
 /* Finds the gap between two peaks; false: another line is in between. */
-static bool find_gap(const yb_load_t *load, const yb_contour_t *line_a, const yb_contour_t *line_b,
-                     gap_t *gap)
+static bool find_gap(const yb_load_t *load, gap_t *gap)
 {
     gap->leaves = -1;
     gap->enters = 65537;
-    gap->enters = find_crossing(load, line_b, gap, false);
-    gap->leaves = find_crossing(load, line_a, gap, true);
+    gap->enters = find_crossing(load, gap->line[1], gap, false);
+    gap->leaves = find_crossing(load, gap->line[0], gap, true);
     const yb_contour_t *line = NULL;
     while ((line = line_after(load, line)) != NULL) {
         if (find_crossing(load, line, gap, false) >= 0)
@@ -87,9 +88,9 @@ static bool find_gap(const yb_load_t *load, const yb_contour_t *line_a, const yb
 }
 
 /* Links m to the nearest point of a line that it sees. */
-static yb_status_t link_to_line(yb_load_t *load, int m, const yb_contour_t *line)
+static void link_to_line(yb_load_t *load, int m, const yb_contour_t *line)
 {
-    int nearest = -1;
+    int nearest = m;
     int32_t least = INT32_MAX;
     int end = line->first + line->count;
     for (int p = line->first; p < end; p++) {
@@ -99,7 +100,8 @@ static yb_status_t link_to_line(yb_load_t *load, int m, const yb_contour_t *line
             least = length;
         }
     }
-    return nearest < 0 ? YB_OK : mesh_force_edge(load, m, nearest);
+    if (nearest != m)
+        mesh_force_edge(load, m, nearest);
 }
 
 /* Is a corner of the triangle that begins with half e a point of a line? */
@@ -129,13 +131,16 @@ static half_t place_in(const yb_load_t *load, half_t e, const yb_vertex_t *p)
     return place;
 }
 
-/* The place of p in the triangles between two lines, or NO_HALF. */
-static half_t find_between(const yb_load_t *load, const yb_vertex_t *p, const yb_contour_t *line_a,
-                           const yb_contour_t *line_b)
+/* The place of p in the triangles between the lines of a gap, or NO_HALF. */
+static half_t find_between(const yb_load_t *load, const yb_vertex_t *p, const gap_t *gap)
 {
     for (half_t e = 0; triangle_of(e) < (int)load->map->triangle_count; e += 4) {
         half_t place = place_in(load, e, p);
-        if (place != NO_HALF && has_corner_on(load, e, line_a) && has_corner_on(load, e, line_b))
+        for (int k = 0; k < 2 && place != NO_HALF; k++) {
+            if (!has_corner_on(load, e, gap->line[k]))
+                place = NO_HALF;
+        }
+        if (place != NO_HALF)
             return place;
     }
     return NO_HALF;
@@ -152,7 +157,7 @@ static uint16_t part_way(uint16_t a, uint16_t b, int32_t at_q16)
 
 /* Two peaks behind two lines of the level, and how far they are apart. */
 typedef struct {
-    int a, b; /* spot heights */
+    int spot[2]; /* heights */
     int32_t apart;
 } pair_t;
 
@@ -163,35 +168,37 @@ typedef struct {
  */
 static yb_status_t join(yb_load_t *load, const pair_t *pair)
 {
-    const yb_contour_t *line_a = &load->contour[load->wish[pair->a]];
-    const yb_contour_t *line_b = &load->contour[load->wish[pair->b]];
-    gap_t gap = {.a = load->contour[pair->a].first, .b = load->contour[pair->b].first};
-    if (!find_gap(load, line_a, line_b, &gap))
+    gap_t gap;
+    for (int k = 0; k < 2; k++) {
+        int spot = pair->spot[k];
+        gap.peak[k] = load->contour[spot].first;
+        gap.line[k] = &load->contour[load->wish[spot]];
+    }
+    if (!find_gap(load, &gap))
         return YB_MORE;
-    const yb_vertex_t *a = vertex_of(load, gap.a);
-    const yb_vertex_t *b = vertex_of(load, gap.b);
     /* Rises are below 2^18 and runs at most 2^16: each product below 2^34. */
-    int64_t weight_a = (int64_t)fix_abs(a->z_q8 - load->level_q8) * (65536 - gap.enters);
-    int64_t weight_b = (int64_t)fix_abs(b->z_q8 - load->level_q8) * gap.leaves;
+    const yb_vertex_t *a = vertex_of(load, gap.peak[0]);
+    const yb_vertex_t *b = vertex_of(load, gap.peak[1]);
     int32_t wide = gap.enters - gap.leaves;
-    int32_t at = gap.leaves + (int32_t)(wide * weight_b / (weight_a + weight_b + 1));
-    at = fix_clamp(at, gap.leaves + (wide >> 3), gap.enters - (wide >> 3));
+    uint64_t weight_a = (uint64_t)fix_wide(fix_abs(a->z_q8 - load->level_q8), 65536 - gap.enters);
+    uint64_t weight_b = (uint64_t)fix_wide(fix_abs(b->z_q8 - load->level_q8), gap.leaves);
+    int32_t at = (int32_t)((uint32_t)wide * weight_b / (weight_a + weight_b + 1));
+    at = gap.leaves + fix_clamp(at, wide >> 3, wide - (wide >> 3));
     yb_vertex_t link;
     link.x_q8 = part_way(a->x_q8, b->x_q8, at);
     link.y_q8 = part_way(a->y_q8, b->y_q8, at);
     link.z_q8 = (load->level_q8 + load->other_q8) / 2;
-    half_t place = find_between(load, &link, line_a, line_b);
+    half_t place = find_between(load, &link, &gap);
     if (place == NO_HALF)
         return YB_MORE;
     int m = load->map->vertex_count;
-    if (mesh_insert(load, place, &link) != YB_OK)
+    if (!mesh_insert(load, place, &link))
         return YB_ERR_LIMIT;
     mesh_legalise(load, m);
-    yb_status_t status = link_to_line(load, m, line_a);
-    if (status == YB_OK)
-        status = link_to_line(load, m, line_b);
+    for (int k = 0; k < 2; k++)
+        link_to_line(load, m, gap.line[k]);
     mesh_make_delaunay(load); /* so that the next one finds the one and only mesh */
-    return status;
+    return YB_OK;
 }
 
 /* The line of this level that a spot height stands behind, if it is a peak: if it lies on the far
@@ -218,9 +225,9 @@ static bool next_pair(const yb_load_t *load, pair_t *pair)
             if (load->group[b] == NOWHERE || load->group[a] == load->group[b])
                 continue;
             int32_t apart = edge_length(load, load->contour[a].first, load->contour[b].first);
-            bool after = a > pair->a || (a == pair->a && b > pair->b);
+            bool after = a > pair->spot[0] || (a == pair->spot[0] && b > pair->spot[1]);
             if (apart < next.apart && (apart > pair->apart || (apart == pair->apart && after)))
-                next = (pair_t){a, b, apart};
+                next = (pair_t){{a, b}, apart};
         }
     }
     *pair = next;
@@ -239,7 +246,7 @@ static void join_groups(yb_load_t *load, yb_index_t from, yb_index_t to)
  * skeleton joins. wish[s] is the line that spot height s stands behind, group[s] one of those that
  * are joined to it.
  */
-static yb_status_t join_level(yb_load_t *load)
+static bool join_level(yb_load_t *load)
 {
     pair_t pair = {.apart = -1};
     int refusals = 0;
@@ -248,16 +255,16 @@ static yb_status_t join_level(yb_load_t *load)
     while (refusals < MOST_REFUSALS && next_pair(load, &pair)) {
         yb_status_t status = join(load, &pair);
         if (status < 0)
-            return YB_ERR_LIMIT;
+            return false;
         if (status == YB_MORE)
             refusals++;
         else
-            join_groups(load, load->group[pair.a], load->group[pair.b]);
+            join_groups(load, load->group[pair.spot[0]], load->group[pair.spot[1]]);
     }
-    return YB_OK;
+    return true;
 }
 
-yb_status_t saddles_add(yb_load_t *load)
+bool saddles_add(yb_load_t *load)
 {
     const yb_contour_t *line = NULL;
     while ((line = line_after(load, line)) != NULL) {
@@ -267,8 +274,8 @@ yb_status_t saddles_add(yb_load_t *load)
         while (height_of(load, first) != load->level_q8)
             first = line_after(load, first);
         bool has_between = fix_abs(load->level_q8 - load->other_q8) >= 2;
-        if (first == line && has_between && join_level(load) != YB_OK)
-            return YB_ERR_LIMIT;
+        if (first == line && has_between && !join_level(load))
+            return false;
     }
-    return YB_OK;
+    return true;
 }

@@ -156,9 +156,10 @@ static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, b
 {
     int16_t rows[1 + MOST_SIDE + 2];
     int16_t *top = &rows[1];
-    int32_t side = field->side;
     int32_t lines = along_x ? shadow->columns : shadow->rows;
     int32_t cells = along_x ? shadow->rows : shadow->columns;
+    int32_t next_line = along_x ? 1 : field->side;
+    int32_t next_cell = along_x ? field->side : 1;
     for (int32_t j = -1; j < cells + 2; j++)
         top[j] = NOTHING;
     for (int32_t k = 0; k < lines; k++) {
@@ -166,7 +167,7 @@ static void sweep(const field_t *field, yb_shadow_t *shadow, const ray_t *ray, b
         for (int32_t m = 0; m < cells; m++) {
             /* A cell of the row before is read before its place is used for this row. */
             int32_t j = ray->aside_q8 >= 0 ? m : cells - 1 - m;
-            int32_t at = along_x ? j * side + i : i * side + j;
+            int32_t at = i * next_line + j * next_cell;
             int32_t ground = (int32_t)field->height[at] << FINE;
             int32_t shade = shadow_height(&top[j], ray);
             if (ground + SLACK >= shade)

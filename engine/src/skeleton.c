@@ -14,33 +14,34 @@
  */
 #include "mesh.h"
 
-/* Is an edge one to be split: of one height, and no contour or link? */
-static bool is_bridge(const yb_load_t *load, half_t e)
-{
-    int a = origin_of(load, e);
-    int b = end_of(load, e);
-    return !is_marked(load, e) && a < load->first_skeleton && b < load->first_skeleton &&
-           height_at(load, a) == height_at(load, b);
-}
-
-/* A bridge, and what its middle is reached from. */
+/* An edge that may be a bridge, and what its middle is reached from. */
 typedef struct {
     half_t half;
     uint32_t key; /* its place in the order of edges */
     int parent, other;
 } bridge_t;
 
+/* Is it one to be split: of one height, and no contour or link? */
+static bool is_bridge(const yb_load_t *load, const bridge_t *bridge)
+{
+    return (bridge->key & 0xffff) < load->first_skeleton && rise_of(load, bridge->half) == 0 &&
+           !is_marked(load, bridge->half);
+}
+
 /* Splits a bridge; the height of its middle is that of the edge until heights are known. */
-static yb_status_t split_bridge(yb_load_t *load, const bridge_t *bridge)
+static bool split_bridge(yb_load_t *load, const bridge_t *bridge)
 {
     yb_vertex_t middle;
     yb_index_t m = (yb_index_t)load->map->vertex_count;
+    yb_branch_t *branch = &load->branch[m];
     find_middle(load, bridge->half, &middle);
-    if (mesh_insert(load, bridge->half, &middle) != YB_OK)
-        return YB_ERR_LIMIT;
-    load->branch[m] = (yb_branch_t){
-        .parent = (yb_index_t)bridge->parent, .other = (yb_index_t)bridge->other, .end = m};
-    return YB_OK;
+    if (!mesh_insert(load, bridge->half, &middle))
+        return false;
+    branch->parent = (yb_index_t)bridge->parent;
+    branch->other = (yb_index_t)bridge->other;
+    branch->end = m;
+    branch->grown = false;
+    return true;
 }
 
 static bool meets(const yb_load_t *load, int m)
@@ -94,11 +95,16 @@ static uint32_t add_way(const yb_load_t *load, uint32_t way, uint32_t weight, in
     return sum < way ? UINT32_MAX : sum;
 }
 
-/* Finds what the middle of a bridge would be reached from, if a branch began there; `other` is the
- * middle itself if that is one point only. On the frame a bridge between two points of lines is met
- * by its mirror image; the frame's own corners, at one height, bridge nothing. False: none begins.
+/* Finds what the middle of a bridge would be reached from: from its apex, and from across it;
+ * `other` is the middle itself if that is flat ground, where the new point will grow on. A bridge
+ * on the frame is met by its mirror image.
+ *
+ * Does a branch begin there, if that is the question? It does at a bridge that has a point of
+ * another height on one side, which the middle is reached from, and on the other flat ground, or
+ * another such point: then a bridge is all there is. But ground that goes on falling across the
+ * bridge needs no point on it, and the frame's own corners, at one height, bridge nothing.
  */
-static bool begins_branch(const yb_load_t *load, bridge_t *bridge)
+static bool look_across(const yb_load_t *load, bridge_t *bridge, bool begins)
 {
     int32_t h = height_at(load, origin_of(load, bridge->half));
     int p = apex_of(load, bridge->half);
@@ -106,99 +112,78 @@ static bool begins_branch(const yb_load_t *load, bridge_t *bridge)
     half_t twin = twin_of(load, bridge->half);
     if (twin != NO_HALF)
         q = apex_of(load, twin);
-    else if ((bridge->key & 0xffff) >= load->point_count)
+    else if (begins && (bridge->key & 0xffff) >= load->point_count)
         return false;
     /* The lower number first; but flat ground last. */
-    bool swap = height_at(load, p) == h || (q < p && height_at(load, q) != h);
+    bool swap = begins && (height_at(load, p) == h || (q < p && height_at(load, q) != h));
     bridge->parent = swap ? q : p;
     bridge->other = swap ? p : q;
+    /* Points of this stage still have their edge's height. */
     int32_t up = height_at(load, bridge->parent) - h;
     int32_t up_other = height_at(load, bridge->other) - h;
     if (up_other == 0 && bridge->other < load->first_skeleton)
         bridge->other = load->map->vertex_count;
-    /* Points of this stage still have their edge's height. Ground that goes on falling across the
-     * bridge needs no point on it. */
-    return up != 0 && (up_other == 0 || (up > 0) == (up_other > 0));
+    return !begins || (up != 0 && (up_other == 0 || (up > 0) == (up_other > 0)));
 }
 
-/* The bridge from v to the lowest higher number at which a branch begins: one that has a point of
- * another height on one side, and on the other flat ground, or another such point: then a bridge is
- * all there is.
+/* The first bridge, in the order of edges, of the triangles at v: of those from v to higher numbers
+ * at which a branch begins, or, if v is a point of a branch, of those that it looks at.
  */
-static bool find_beginning(const yb_load_t *load, int v, bridge_t *next)
+static bool find_bridge(const yb_load_t *load, int v, bridge_t *next)
 {
+    bool begins = v < load->first_skeleton;
+    *next = (bridge_t){.key = UINT32_MAX};
     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
-        for (int k = 0; k < 2; k++) {
-            half_t side = k == 0 ? e : last_of(e);
-            bridge_t bridge = {side, edge_key(load, side), v, v};
-            if (bridge.key >> 16 == (uint32_t)v && bridge.key < next->key &&
-                is_bridge(load, side) && begins_branch(load, &bridge))
+        bridge_t bridge = {.half = e};
+        for (int k = 0; k < 3; k++) {
+            bridge.half = last_of(bridge.half);
+            bridge.key = edge_key(load, bridge.half);
+            if (bridge.key < next->key && (!begins || bridge.key >> 16 == (uint32_t)v) &&
+                is_bridge(load, &bridge) && look_across(load, &bridge, begins))
                 *next = bridge;
         }
     }
     return next->key != UINT32_MAX;
 }
 
-/* The next bridge that point v looks at. One on the frame counts as met by its mirror image. */
-static bool find_bridge(const yb_load_t *load, int v, bridge_t *next)
-{
-    for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
-        half_t opposite = next_of(e);
-        uint32_t key = edge_key(load, opposite);
-        if (key < next->key && is_bridge(load, opposite)) {
-            next->half = opposite;
-            next->key = key;
-        }
-    }
-    if (next->key == UINT32_MAX)
-        return false;
-    half_t twin = twin_of(load, next->half);
-    if (twin != NO_HALF) {
-        int q = apex_of(load, twin);
-        /* v still has the height of the bridge that it splits, and of its flat ground, where the
-         * new point will grow on. */
-        bool flat = q < load->first_skeleton && height_at(load, q) == height_at(load, v);
-        next->other = flat ? load->map->vertex_count : q;
-    }
-    return true;
-}
-
 /* Splits all bridges at v where branches begin, or, if v is a point of a branch, that it looks at.
  */
-static yb_status_t split_bridges(yb_load_t *load, int v)
+static bool split_bridges(yb_load_t *load, int v)
 {
-    bool begins = v < load->first_skeleton;
-    for (;;) {
-        bridge_t bridge = {NO_HALF, UINT32_MAX, v, v};
-        if (!(begins ? find_beginning(load, v, &bridge) : find_bridge(load, v, &bridge)))
-            return YB_OK;
+    bridge_t bridge;
+    while (find_bridge(load, v, &bridge)) {
+        bool begins = v < load->first_skeleton;
         int m = load->map->vertex_count;
-        if (split_bridge(load, &bridge) != YB_OK)
-            return YB_ERR_LIMIT;
+        if (!split_bridge(load, &bridge))
+            return false;
         uint32_t weight = steepness(load, begins ? m : beginning_of(load, v));
         load->way[m] = add_way(load, begins ? 0 : load->way[v], weight, bridge.parent, m);
     }
+    return true;
 }
 
 /* First the beginnings, in the order of their bridges' ends. Then always the shortest way, so that
  * branches meet where the slopes from both sides would.
  */
-static yb_status_t grow(yb_load_t *load)
+static bool grow(yb_load_t *load)
 {
     for (int v = 0; v < load->first_skeleton; v++) {
-        if (split_bridges(load, v) != YB_OK)
-            return YB_ERR_LIMIT;
+        if (!split_bridges(load, v))
+            return false;
     }
     for (;;) {
         int next = -1;
+        uint32_t least = 0;
         for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
-            if (!load->branch[v].grown && (next < 0 || load->way[v] < load->way[next]))
+            if (!load->branch[v].grown && (next < 0 || load->way[v] < least)) {
                 next = v;
+                least = load->way[v];
+            }
         }
         if (next < 0)
-            return YB_OK;
-        if (split_bridges(load, next) != YB_OK)
-            return YB_ERR_LIMIT;
+            return true;
+        if (!split_bridges(load, next))
+            return false;
         load->branch[next].grown = true;
     }
 }
@@ -208,9 +193,8 @@ static uint32_t way_to_contour(const yb_load_t *load, int v)
 {
     int32_t way = 0;
     for (half_t e = first_spoke(load, v); e != NO_HALF; e = spoke_after(load, e)) {
-        int side = end_of(load, e);
-        if (side < load->first_skeleton && height_at(load, side) == height_at(load, v))
-            way = fix_max(way, edge_length(load, v, side));
+        if (end_of(load, e) < load->first_skeleton && rise_of(load, e) == 0)
+            way = fix_max(way, half_length(load, e));
     }
     return (uint32_t)way;
 }
@@ -277,18 +261,18 @@ static int32_t height_on(const yb_load_t *load, int v)
     return from > h ? fix_max(z, h + least) : fix_min(z, h - least);
 }
 
-yb_status_t skeleton_add(yb_load_t *load)
+bool skeleton_add(yb_load_t *load)
 {
     load->first_skeleton = load->map->vertex_count;
-    if (grow(load) != YB_OK)
-        return YB_ERR_LIMIT;
+    if (!grow(load))
+        return false;
     measure_ways(load);
     /* Meeting points first: slopes end there. */
     for (int k = 0; k < 2; k++) {
         for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
             if (meets(load, v) == (k == 0))
-                load->map->vertex[v].z_q8 = height_on(load, v);
+                load->vertex[v].z_q8 = height_on(load, v);
         }
     }
-    return YB_OK;
+    return true;
 }

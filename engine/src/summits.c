@@ -60,7 +60,7 @@ typedef struct {
     int32_t sloping; /* of those of their segments beyond which there is another height */
     int32_t outside; /* area of the triangles beyond those segments */
     int64_t rise;    /* sum of length times rise towards the region: below 2^17 · 2^18 · 2^16 */
-    int64_t change;  /* the same without signs */
+    uint64_t change; /* the same without signs */
 } surroundings_t;
 
 /* Area of a half's triangle: see area_of. */
@@ -85,10 +85,10 @@ static void look_round(const yb_load_t *load, int region, surroundings_t *found)
         found->length += length;
         if (up == 0)
             continue;
-        int64_t rise = (int64_t)length * up;
+        int64_t rise = fix_wide(length, up);
         found->sloping += length;
         found->rise += rise;
-        found->change += rise < 0 ? -rise : rise;
+        found->change += (uint64_t)(rise < 0 ? -rise : rise);
         found->outside += area_at(load, twin);
     }
 }
@@ -106,17 +106,16 @@ static int32_t rise_inside(const yb_load_t *load, int region, int32_t h)
         int32_t interval = rise_farther_out(load, h);
         return interval / 2 != 0 ? interval / 2 : interval;
     }
-    int32_t interval = (int32_t)(round.change / round.sloping);
+    uint32_t interval = fix_share(round.change, (uint32_t)round.sloping, UINT32_MAX);
+    uint32_t least = interval >> 3;
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
      * than enough; area / length is below 2^32, where a short line bounds much of the frame. */
-    int64_t slope_q11 = round.change * 128 / round.outside;
-    const int32_t steepest_q11 = (int32_t)1 << 20;
-    slope_q11 = slope_q11 > steepest_q11 ? steepest_q11 : slope_q11;
-    int64_t rise = (slope_q11 * ((uint32_t)round.area * 8 / (uint32_t)round.length)) >> 11;
-    int32_t least = fix_max(interval >> 3, 1);
-    int32_t most = fix_max(interval - (interval >> 3), 1);
-    rise = rise < least ? least : rise > most ? most : rise;
-    return (int32_t)(round.rise < 0 ? -rise : rise);
+    uint64_t slope_q11 =
+        fix_share(round.change * 128, (uint32_t)round.outside, (uint32_t)512 << 11);
+    uint32_t wide = (uint32_t)round.area * 8 / (uint32_t)round.length;
+    int32_t rise = (int32_t)fix_share(slope_q11 * wide, 1 << 11, interval - least);
+    rise = fix_max(rise, fix_max((int32_t)least, 1));
+    return round.rise < 0 ? -rise : rise;
 }
 
 /* --- Where ----------------------------------------------------------------------------------- */
@@ -168,7 +167,7 @@ static spot_t widest_place(const yb_load_t *load, int region)
     return spot;
 }
 
-static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
+static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
 {
     half_t e = spot->half;
     yb_index_t p = (yb_index_t)load->map->vertex_count;
@@ -176,26 +175,27 @@ static yb_status_t add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
     find_middle(load, e, &summit);
     summit.z_q8 = z;
     if (spot->beyond) { /* half and quarter weights keep to the quarter-step lattice */
-        const yb_vertex_t *c = vertex_of(load, apex_of(load, e));
-        summit.x_q8 = fix_middle(summit.x_q8, c->x_q8);
-        summit.y_q8 = fix_middle(summit.y_q8, c->y_q8);
+        find_middle_of(&summit, vertex_of(load, apex_of(load, e)), &summit);
         e = place_inside(e);
     }
-    if (mesh_insert(load, e, &summit) != YB_OK)
-        return YB_ERR_LIMIT;
+    if (!mesh_insert(load, e, &summit))
+        return false;
     mesh_legalise(load, p);
-    yb_index_t region = load->region[load->star[p]];
-    load->contour[load->contour_count + load->summit_count++] =
-        (yb_contour_t){.first = p, .count = 1, .left = region, .right = region};
-    return YB_OK;
+    yb_contour_t *contour = &load->contour[load->contour_count + load->summit_count++];
+    contour->first = p;
+    contour->count = 1;
+    contour->left = contour->right = (yb_index_t)region_at(load, p);
+    contour->open = false;
+    return true;
 }
 
-yb_status_t summits_add(yb_load_t *load)
+bool summits_add(yb_load_t *load)
 {
+    load->first_summit = load->map->vertex_count;
     for (int r = 0; r < load->region_count; r++)
         load->ground[r] = FLAT;
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
-        if (height_at(load, origin_of(load, e)) != height_at(load, end_of(load, e)))
+        if (rise_of(load, e) != 0)
             load->ground[region_of(load, e)] = 0;
     }
     /* A region may have to wait until its neighbour has a second height: round and round until
@@ -211,11 +211,11 @@ yb_status_t summits_add(yb_load_t *load)
             int32_t rise = rise_inside(load, region, h);
             if (fix_abs(h + rise) > YB_MAX_HEIGHT_Q8)
                 rise = -rise;
-            if (add_summit(load, &spot, h + rise) != YB_OK)
-                return YB_ERR_LIMIT;
+            if (!add_summit(load, &spot, h + rise))
+                return false;
             load->ground[region] = 0;
             changed = true;
         }
     }
-    return YB_OK;
+    return true;
 }

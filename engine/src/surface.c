@@ -1,10 +1,13 @@
 /* The surface by itself, without a camera: refined to an even length, or asked for one height. */
 #include "surface.h"
+
+#include <string.h>
+
 #include "fix.h"
 #include "relief.h"
 #include "split.h"
 
-const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
+const uint8_t split_child[8 + 1][SPLIT_CHILDREN][3] YB_ROM = {
     {{SPLIT_END}},
     {{0, 3, 2}, {3, 1, 2}, {SPLIT_END}},
     {{1, 4, 0}, {4, 2, 0}, {SPLIT_END}},
@@ -13,6 +16,7 @@ const uint8_t split_child[8][SPLIT_CHILDREN][3] YB_ROM = {
     {{3, 5, 0}, {1, 2, 5}, {1, 5, 3}, {SPLIT_END}},
     {{5, 4, 2}, {0, 1, 4}, {0, 4, 5}, {SPLIT_END}},
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}},
+    {{SPLIT_END}},
 };
 
 /* Each level at least halves the area, which twice over is a whole number of square 1/256 steps
@@ -27,24 +31,18 @@ static uint8_t split_edges(const yb_map_t *map, const yb_vertex_t *const corner[
                            yb_vertex_t middle[3])
 {
     uint8_t pattern = 0;
-    for (int i = 0; i < 3; i++) {
+    const yb_vertex_t *b = corner[0];
+    for (int i = 2; i >= 0; i--) {
         const yb_vertex_t *a = corner[i];
-        const yb_vertex_t *b = corner[i == 2 ? 0 : i + 1];
         int32_t dx = fix_minus(b->x_q8, a->x_q8);
         int32_t dy = fix_minus(b->y_q8, a->y_q8);
         if (fix_length(dx, dy) > longest && relief_splits(dx, dy)) {
             relief_middle(map, a, b, &middle[i]);
             pattern = (uint8_t)(pattern | 1 << i);
         }
+        b = a;
     }
     return pattern;
-}
-
-static void find_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
-{
-    const yb_index_t *at = yb_map_triangle(map, triangle);
-    for (int i = 0; i < 3; i++)
-        corner[i] = &map->vertex[at[i]];
 }
 
 static void pick(const yb_vertex_t *const corner[3], const yb_vertex_t middle[3],
@@ -60,23 +58,22 @@ void surface_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longes
                     surface_level_t *levels, int count, yb_triangle_fn fn, void *context)
 {
     surface_level_t *level = levels;
-    find_corners(map, triangle, level->corner);
+    relief_corners(map, triangle, level->corner);
     for (;;) {
-        level->pattern = 0;
+        uint8_t pattern = 0;
         if (level != &levels[count - 1])
-            level->pattern = split_edges(map, level->corner, longest_q8, level->middle);
-        level->child = 0;
-        if (level->pattern == 0)
+            pattern = split_edges(map, level->corner, longest_q8, level->middle);
+        if (pattern == 0)
             fn(context, level->corner[0], level->corner[1], level->corner[2]);
+        level->child = split_child[pattern][0];
         /* Up to the next level that has a child left, and down into it. */
-        const uint8_t *child = split_child[level->pattern][0];
-        while (level->child == SPLIT_CHILDREN || yb_rom_u8(child) == SPLIT_END) {
+        while (yb_rom_u8(level->child) == SPLIT_END) {
             if (level == levels)
                 return;
             level--;
-            child = split_child[level->pattern][++level->child & 3];
         }
-        pick(level->corner, level->middle, child, level[1].corner);
+        pick(level->corner, level->middle, level->child, level[1].corner);
+        level->child += 3;
         level++;
     }
 }
@@ -94,56 +91,56 @@ void yb_map_refine(const yb_map_t *map, yb_triangle_t triangle, uint16_t longest
 static bool weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int64_t weight[3])
 {
     bool inside = true;
+    const yb_vertex_t *a = p[1];
+    const yb_vertex_t *b = p[2];
     for (int i = 0; i < 3; i++) {
-        const yb_vertex_t *a = p[i == 2 ? 0 : i + 1];
-        const yb_vertex_t *b = p[i == 0 ? 2 : i - 1];
-        weight[i] = (int64_t)fix_minus(b->x_q8, a->x_q8) * (y - a->y_q8) -
-                    (int64_t)fix_minus(b->y_q8, a->y_q8) * (x - a->x_q8);
+        weight[i] = fix_wide(fix_minus(b->x_q8, a->x_q8), y - a->y_q8) -
+                    fix_wide(fix_minus(b->y_q8, a->y_q8), x - a->x_q8);
         inside = inside && weight[i] >= 0;
+        a = b;
+        b = p[i];
     }
     return inside;
 }
 
-/* Height of the plane through three points at a place inside them. Heights are below 2^19 and areas
- * below 2^33: each product is below 2^52.
+/* Height of the plane through three points at a place inside them; no triangle of a map is flat in
+ * plan. Heights are below 2^19 and areas below 2^33: each product is below 2^53, and counted from
+ * the lowest height, so that the division rounds down.
  */
 static int32_t plane_height(const yb_vertex_t *const p[3], const int64_t weight[3])
 {
-    int64_t whole = weight[0] + weight[1] + weight[2];
-    if (whole <= 0) /* no triangle of a map is flat in plan */
-        return p[0]->z_q8;
-    int64_t sum = 0;
-    for (int i = 0; i < 3; i++)
-        sum += weight[i] * p[i]->z_q8;
-    /* Rounded down, for heights below zero too. */
-    return (int32_t)((sum >= 0 ? sum : sum - (whole - 1)) / whole);
+    const int32_t lowest = -((int32_t)1 << 19);
+    uint64_t whole = 0;
+    uint64_t sum = 0;
+    for (int i = 0; i < 3; i++) {
+        whole += (uint64_t)weight[i];
+        sum += (uint64_t)weight[i] * (uint32_t)(p[i]->z_q8 - lowest);
+    }
+    return (int32_t)(sum / whole) + lowest;
 }
 
 int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
 {
     int32_t x = fix_min(x_q8, map->east_q8);
     int32_t y = fix_min(y_q8, map->north_q8);
-    const yb_vertex_t *p[3];
+    yb_vertex_t corner[3];
+    const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
+    const yb_vertex_t *part[3];
     int64_t weight[3];
     yb_triangle_t t = 0;
     do {
-        find_corners(map, t, p);
-    } while (!weigh(p, x, y, weight) && ++t < map->triangle_count); /* they tile the frame */
-    for (yb_vertex_t corner[3];;) {
+        relief_corners(map, t, part);
+    } while (!weigh(part, x, y, weight) && ++t < map->triangle_count); /* they tile the frame */
+    for (;;) {
+        const yb_vertex_t next[3] = {*part[0], *part[1], *part[2]};
+        memcpy(corner, next, sizeof corner);
         yb_vertex_t middle[3];
         uint8_t pattern = split_edges(map, p, YB_REFERENCE_Q8, middle);
         if (pattern == 0)
             return plane_height(p, weight);
-        const yb_vertex_t *child[3];
-        for (int k = 0; k < SPLIT_CHILDREN; k++) {
-            pick(p, middle, split_child[pattern][k], child);
-            if (weigh(child, x, y, weight))
-                break;
-        }
-        const yb_vertex_t next[3] = {*child[0], *child[1], *child[2]};
-        for (int i = 0; i < 3; i++) {
-            corner[i] = next[i];
-            p[i] = &corner[i];
-        }
+        int k = 0;
+        do {
+            pick(p, middle, split_child[pattern][k], part);
+        } while (!weigh(part, x, y, weight) && ++k < SPLIT_CHILDREN); /* they tile the whole */
     }
 }

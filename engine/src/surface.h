@@ -7,8 +7,7 @@
 typedef struct {
     const yb_vertex_t *corner[3];
     yb_vertex_t middle[3];
-    uint8_t pattern;
-    uint8_t child;
+    const uint8_t *child; /* the next one: of split_child */
 } surface_level_t;
 
 /* As yb_map_refine, but what is still too long after so many levels is handed out as it is. */

@@ -83,7 +83,7 @@ static int64_t in_circle(const yb_load_t *load, const yb_index_t corner[3], int 
     const int32_t *c = way[2];
     for (int i = 0; i < 3; i++) {
         const int32_t *a = way[i];
-        sum += (int64_t)(a[0] * a[0] + a[1] * a[1]) * (b[0] * c[1] - c[0] * b[1]);
+        sum += fix_wide(a[0] * a[0] + a[1] * a[1], b[0] * c[1] - c[0] * b[1]);
         b = c;
         c = a;
     }
@@ -99,7 +99,7 @@ static bool illegal(const yb_load_t *load, half_t e)
     int64_t inside = in_circle(load, load->map->triangle[triangle_of(e)], d);
     if (inside != 0)
         return inside > 0;
-    return fix_min(apex_of(load, e), d) < fix_min(origin_of(load, e), end_of(load, e));
+    return fix_min(apex_of(load, e), d) < lower_end(load, e);
 }
 
 /* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
@@ -113,7 +113,7 @@ void mesh_legalise(yb_load_t *load, int p)
     do {
         while (illegal(load, next_of(e))) {
             flip(load, next_of(e)); /* its triangle is now (a d p): the first of the two new ones */
-            e = half_at(load, triangle_of(e), p);
+            e = place_inside(e) - 1;
         }
         e = spoke_left(load, e);
     } while (e != NO_HALF && end_of(load, e) != first_end);
@@ -137,11 +137,6 @@ static half_t locate(const yb_load_t *load, half_t e, const yb_vertex_t *p)
         e++;
     }
     return place;
-}
-
-static bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
-{
-    return a->x_q8 == b->x_q8 && a->y_q8 == b->y_q8;
 }
 
 /* Splits t = (a b c) at p into (a b p), (b c p), (c a p), where p may lie on ab. Then a b p is
@@ -171,27 +166,27 @@ static void split(yb_load_t *load, half_t place, int p)
         flip(load, 4 * part[0]);
 }
 
-yb_status_t mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at)
+bool mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at)
 {
     int p = load->map->vertex_count;
-    if (mesh_add_vertex(load, at) != YB_OK)
-        return YB_ERR_LIMIT;
+    if (!mesh_add_vertex(load, at))
+        return false;
     split(load, place, p);
-    return YB_OK;
+    return true;
 }
 
-static yb_status_t insert_all(yb_load_t *load)
+static bool insert_all(yb_load_t *load)
 {
     yb_map_t *map = load->map;
     const yb_index_t *corner = load->corner;
+    facet_t half = {{corner[0], corner[1], corner[2]}, {NO_TRIANGLE, NO_TRIANGLE, NO_TRIANGLE}};
     map->triangle_count = 2;
-    for (int t = 0; t < 2; t++) {
-        facet_t part = {{corner[0], corner[t + 1], corner[t + 2]},
-                        {t == 0 ? NO_TRIANGLE : 0, NO_TRIANGLE, NO_TRIANGLE}};
-        put_facet(load, t, &part);
-    }
-    mesh_legalise(load, corner[0]);
-    mesh_legalise(load, corner[1]);
+    put_facet(load, 0, &half);
+    half.v[1] = corner[2];
+    half.v[2] = corner[3];
+    half.across[0] = 0;
+    put_facet(load, 1, &half);
+    mesh_legalise(load, corner[1]); /* the diagonal */
     int t = 0;
     for (int p = 0; p < map->vertex_count; p++) {
         const yb_vertex_t *at = vertex_of(load, p);
@@ -202,7 +197,7 @@ static yb_status_t insert_all(yb_load_t *load)
             if (v == p)
                 is_corner = true;
             else if (same_place(vertex_of(load, v), at))
-                return YB_ERR_CORRUPT;
+                return false;
         }
         if (is_corner)
             continue;
@@ -210,7 +205,7 @@ static yb_status_t insert_all(yb_load_t *load)
         mesh_legalise(load, p);
         t = (int)load->star[p];
     }
-    return YB_OK;
+    return true;
 }
 
 /* Flips away all edges at v between the spokes to `from` and `to` (counter-clockwise), given that
@@ -229,6 +224,15 @@ static void clear_fan(yb_load_t *load, int v, int from, int to)
         }
         e = left;
     }
+}
+
+static void mark(yb_load_t *load, half_t e)
+{
+    facet_t facet;
+    int t = triangle_of(e);
+    take_facet(load, 4 * t, &facet);
+    facet.across[e & 3] |= ENTRY_MARK;
+    put_facet(load, t, &facet);
 }
 
 /* The half of the triangle on the left of spoke e that leads from the spoke's beginning to b, or
@@ -255,11 +259,11 @@ static half_t towards(const yb_load_t *load, int a, int b)
     return NO_HALF;
 }
 
-/* Takes one vertex off the channel of ab, which it enters from a across e: walks along ab and
- * removes the first vertex at which a side of the channel bulges away from ab. There is one: that
- * farthest from ab.
+/* Walks along the channel of ab, which is entered from a across e. To `narrow` it takes one vertex
+ * off it: the first at which a side of the channel bulges away from ab. There is one: that farthest
+ * from ab. False: a vertex or a marked edge is in the way.
  */
-static yb_status_t narrow_channel(yb_load_t *load, half_t e, int a, int b)
+static bool walk_channel(yb_load_t *load, half_t e, int a, int b, bool narrow)
 {
     int right_before = a;
     int left_before = a;
@@ -270,15 +274,17 @@ static yb_status_t narrow_channel(yb_load_t *load, half_t e, int a, int b)
         int apex = apex_of(load, e);
         int32_t side = orientation(load, a, b, apex);
         if (side == 0 && apex != b)
-            return YB_ERR_CORRUPT; /* a contour runs through a point of another */
-        if (side >= 0 && orientation(load, left_before, left, apex) < 0) {
+            return false; /* a contour runs through a point of another */
+        if (narrow && side >= 0 && orientation(load, left_before, left, apex) < 0) {
             clear_fan(load, left, left_before, apex);
-            return YB_OK;
+            return true;
         }
-        if (side <= 0 && orientation(load, right_before, right, apex) > 0) {
+        if (narrow && side <= 0 && orientation(load, right_before, right, apex) > 0) {
             clear_fan(load, right, apex, right_before);
-            return YB_OK;
+            return true;
         }
+        if (side == 0)
+            return true;
         /* Now e is left-right: go on through the edge from the apex to the other side. */
         if (side > 0) {
             left_before = left;
@@ -288,71 +294,60 @@ static yb_status_t narrow_channel(yb_load_t *load, half_t e, int a, int b)
             e = last_of(e);
         }
     }
-    return YB_ERR_CORRUPT; /* two contours cross */
+    return false; /* two contours cross */
 }
 
-/* Makes ab an edge and fixes it. The triangles it crosses form a channel; each round takes one
- * vertex off the channel's sides (those edges that it had across the channel are flipped to its
- * neighbours), until none is left between a and b. Each vertex leaves once: it always ends.
+/* Can ab be an edge? To `force` it, it is made one and marked: the triangles it crosses form a
+ * channel; each round takes one vertex off the channel's sides (those edges that it had across the
+ * channel are flipped to its neighbours), until none is left between a and b. Each vertex leaves
+ * once: it always ends. What can be an edge can be forced.
  */
-yb_status_t mesh_force_edge(yb_load_t *load, int a, int b)
+static bool reach(yb_load_t *load, int a, int b, bool force)
 {
     for (;;) {
         half_t e = towards(load, a, b);
         if (e == NO_HALF)
-            return YB_ERR_CORRUPT;
+            return false;
         half_t edge = edge_to(load, e, b);
         if (edge != NO_HALF) {
-            int t = triangle_of(e);
-            facet_t facet;
-            take_facet(load, 4 * t, &facet);
-            facet.across[edge & 3] |= ENTRY_MARK;
-            put_facet(load, t, &facet);
-            return YB_OK;
+            if (force)
+                mark(load, edge);
+            return true;
         }
-        if (narrow_channel(load, next_of(e), a, b) != YB_OK)
-            return YB_ERR_CORRUPT;
+        if (!walk_channel(load, next_of(e), a, b, force))
+            return false;
+        if (!force)
+            return true;
     }
 }
 
-bool mesh_sees(const yb_load_t *load, int a, int b)
+bool mesh_force_edge(yb_load_t *load, int a, int b)
 {
-    half_t e = towards(load, a, b);
-    if (e == NO_HALF)
-        return false;
-    if (edge_to(load, e, b) != NO_HALF)
-        return true;
-    e = next_of(e);
-    while (!is_marked(load, e)) {
-        e = twin_of(load, e);
-        int apex = apex_of(load, e);
-        int32_t side = orientation(load, a, b, apex);
-        if (side == 0)
-            return apex == b;
-        e = side > 0 ? next_of(e) : last_of(e);
-    }
-    return false;
+    return reach(load, a, b, true);
 }
 
-yb_status_t mesh_link(yb_load_t *load, int a, int b)
+bool mesh_sees(yb_load_t *load, int a, int b)
 {
-    return mesh_sees(load, a, b) ? mesh_force_edge(load, a, b) : YB_MORE;
+    return reach(load, a, b, false);
 }
 
-static yb_status_t force_contours(yb_load_t *load)
+bool mesh_link(yb_load_t *load, int a, int b)
+{
+    return mesh_sees(load, a, b) && mesh_force_edge(load, a, b);
+}
+
+static bool force_contours(yb_load_t *load)
 {
     for (int i = 0; i < load->contour_count; i++) {
         const yb_contour_t *contour = &load->contour[i];
-        int last = contour->first + contour->count - 1;
-        for (int a = contour->first; a < last; a++) {
-            if (mesh_force_edge(load, a, a + 1) != YB_OK)
-                return YB_ERR_CORRUPT;
+        int first = contour->first;
+        int edges = contour->open || contour->count == 1 ? contour->count - 1 : contour->count;
+        for (int k = 1; k <= edges; k++) {
+            if (!mesh_force_edge(load, first + k - 1, k < contour->count ? first + k : first))
+                return false;
         }
-        bool closed = !contour->open && contour->count > 1;
-        if (closed && mesh_force_edge(load, last, contour->first) != YB_OK)
-            return YB_ERR_CORRUPT;
     }
-    return YB_OK;
+    return true;
 }
 
 /* Flips until no edge is illegal: each is looked at from its first triangle alone. Each flip lowers
@@ -372,12 +367,10 @@ void mesh_make_delaunay(yb_load_t *load)
     }
 }
 
-yb_status_t mesh_triangulate(yb_load_t *load)
+bool mesh_triangulate(yb_load_t *load)
 {
-    yb_status_t status = insert_all(load);
-    if (status == YB_OK)
-        status = force_contours(load);
-    if (status == YB_OK)
-        mesh_make_delaunay(load);
-    return status;
+    if (!insert_all(load) || !force_contours(load))
+        return false;
+    mesh_make_delaunay(load);
+    return true;
 }

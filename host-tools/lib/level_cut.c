@@ -125,7 +125,7 @@ static bool is_near(const yb_level_cut_t *cut, const yb_vertex_t *const corner[3
     if (low < cut->z_q8 && high >= cut->z_q8)
         return true;
     relief_bound_t bound;
-    relief_bound(corner[0], corner[1], corner[2], &bound);
+    relief_bound(corner, &bound);
     int32_t noise = relief_reach(cut->map, &bound, cut->shortest) - bound.bulge_q8;
     int32_t reach = bound.bulge_q8 + noise / 8 * cut->share;
     return low - reach <= cut->z_q8 && high + reach >= cut->z_q8;

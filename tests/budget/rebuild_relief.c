@@ -78,7 +78,7 @@ static bool triangulate_plainly(void)
     for (int i = 0; i < load.contour_count; i++)
         plain_load.contour[i] =
             (yb_contour_t){.first = load.contour[i].first, .count = load.contour[i].count};
-    return border_close(&plain_load) == YB_OK && mesh_triangulate(&plain_load) == YB_OK;
+    return border_close(&plain_load) && mesh_triangulate(&plain_load);
 }
 
 static bool write_lines(const char *folder, const yb_lines_t *lines, yb_error_t *error)

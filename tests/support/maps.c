@@ -51,23 +51,15 @@ yb_status_t map_triangulate(yb_map_t *map, yb_load_t *load, const plan_t *plan)
 {
     map_set(map, load, plan);
     map->vertex_count = load->point_count;
-    yb_status_t status = border_close(load);
-    if (status == YB_OK)
-        status = mesh_triangulate(load);
-    if (status == YB_OK)
-        status = regions_find(load);
-    return status;
+    return border_close(load) && mesh_triangulate(load) && regions_find(load) ? YB_OK
+                                                                              : YB_ERR_CORRUPT;
 }
 
 yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan)
 {
     yb_status_t status = map_triangulate(map, load, plan);
-    load->first_summit = map->vertex_count;
-    if (status == YB_OK)
-        status = summits_add(load);
-    load->first_saddle = map->vertex_count;
-    if (status == YB_OK)
-        status = links_add(load);
+    if (status == YB_OK && (!summits_add(load) || !links_add(load)))
+        status = YB_ERR_LIMIT;
     load->first_skeleton = map->vertex_count;
     return status;
 }

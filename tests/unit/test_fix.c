@@ -168,6 +168,25 @@ static void products(void **state)
     assert_int_equal(fix_product(1 << 24, 1 << 8, 0), 0); /* the low 32 bits */
 }
 
+static void shares(void **state)
+{
+    (void)state;
+    assert_true(fix_wide(INT32_MIN, INT32_MIN) == (int64_t)1 << 62);
+    assert_true(fix_wide(INT32_MIN, INT32_MAX) == -(((int64_t)1 << 62) - ((int64_t)1 << 31)));
+    assert_int_equal(fix_scale(INT32_MAX, INT32_MAX, INT32_MAX), INT32_MAX);
+    assert_int_equal(fix_scale(-INT32_MAX, INT32_MAX, INT32_MAX), -INT32_MAX);
+    for (int sign = -1; sign <= 1; sign += 2) { /* towards zero, whichever is negative */
+        assert_int_equal(fix_scale(7 * sign, 3, 4), 5 * sign);
+        assert_int_equal(fix_scale(7, 3 * sign, 4), 5 * sign);
+        assert_int_equal(fix_scale(7, 3, 4 * sign), 5 * sign);
+    }
+    assert_int_equal(fix_share(UINT64_MAX, 1, 12), 12);
+    assert_int_equal(fix_share(UINT64_MAX, UINT32_MAX, UINT32_MAX), UINT32_MAX); /* 2^32 + 1 */
+    assert_int_equal(fix_share(((uint64_t)1 << 32) - 1, 1, UINT32_MAX), UINT32_MAX);
+    assert_int_equal(fix_share(99, 10, 9), 9);
+    assert_int_equal(fix_share(99, 10, 10), 9);
+}
+
 static void inverses(void **state)
 {
     (void)state;
@@ -200,6 +219,7 @@ int main(void)
         cmocka_unit_test(square_root_is_exact),
         cmocka_unit_test(sine_and_cosine),
         cmocka_unit_test(products),
+        cmocka_unit_test(shares),
         cmocka_unit_test(inverses),
         cmocka_unit_test(degrees),
     };

@@ -413,8 +413,9 @@ static void descend(search_t *search, int depth, int least)
         pattern |= 1 << i;
         for (int k = 0; k <= depth; k++) {
             const yb_vertex_t *q = search->corner[k];
+            const yb_vertex_t *const corner[3] = {&q[0], &q[1], &q[2]};
             relief_bound_t bound;
-            relief_bound(&q[0], &q[1], &q[2], &bound);
+            relief_bound(corner, &bound);
             double part = off_plane(q, &point[3 + i]) / relief_reach(&map, &bound, shortest);
             search->worst = fmax(search->worst, part);
         }

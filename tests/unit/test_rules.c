@@ -144,14 +144,11 @@ static void shuffle(rng_t *rng)
  */
 static bool apply_rules(rng_t *rng, bool shuffled, uint64_t hash[3])
 {
-    yb_status_t (*const stage[3])(yb_load_t *) = {summits_add, links_add, skeleton_add};
+    bool (*const stage[3])(yb_load_t *) = {summits_add, links_add, skeleton_add};
     for (int k = 0; k < 3; k++) {
         if (shuffled)
             shuffle(rng);
-        *(k == 0   ? &load.first_summit
-          : k == 1 ? &load.first_saddle
-                   : &load.first_skeleton) = map.vertex_count;
-        if (stage[k](&load) != YB_OK)
+        if (!stage[k](&load))
             return false;
         hash[k] = mesh_hash(&map);
     }

@@ -229,11 +229,12 @@ typedef struct {
     uint16_t vertices_promised;
     uint16_t section_at, section_size, size;
     yb_status_t result;
-    yb_map_t *map; /* what is loaded */
+    yb_map_t *map;       /* what is loaded, … */
+    yb_vertex_t *vertex; /* … and its vertices */
     union {
         struct { /* compact.c */
-            uint32_t range, code, cell;
-            int32_t base;
+            uint32_t range, code;
+            int32_t base, places_left;
             int x, y, start_x, start_y, start_way, length, height;
             yb_ring_t last; /* step */
         };
@@ -300,8 +301,8 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load);
 /* Feeds the next `count` bytes of the code, in pieces of any size; they are borrowed for the call
  * only. YB_MORE: go on. YB_OK: the map is ready and `load` may be used for something else. An
  * error, or bytes after the end (YB_ERR_CORRUPT), is final: later calls answer the same.
- * Cost: a hundred-byte code takes about 2.2 M instructions on a Cortex-M3, 251 scattered summits
- * 4.2 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
+ * Cost: a hundred-byte code takes about 2.4 M instructions on a Cortex-M3, 251 scattered summits
+ * 4.6 M (scripts/bench instructions), nearly all of it in the call that feeds the last byte.
  */
 YB_MUST_CHECK yb_status_t yb_map_feed(yb_map_t *map, yb_load_t *load, const uint8_t *bytes,
                                       size_t count);
