@@ -96,9 +96,9 @@ uint32_t yb_viewer_draw(yb_viewer_t *viewer, uint16_t azimuth_bam, yb_viewer_ban
     if (frame == NULL) /* there is room for a row of any map */
         return hash;
     yb_frame_begin(frame, &viewer->map, &view, &screen);
+    const uint16_t most = rows.rows;
     for (; rows.y < YB_VIEWER_HEIGHT; rows.y = (uint16_t)(rows.y + rows.rows)) {
-        if (rows.rows > YB_VIEWER_HEIGHT - rows.y)
-            rows.rows = (uint16_t)(YB_VIEWER_HEIGHT - rows.y);
+        rows.rows = yb_band_rows(&screen, rows.y, most);
         yb_frame_band(frame, &rows);
         hash = hash_bytes(hash, rows.pixels, (size_t)YB_VIEWER_PITCH * rows.rows);
         if (band)

@@ -127,8 +127,11 @@ static void draw(const setting_t *setting, const yb_view_t *view)
     yb_band_t band;
     yb_frame_t *frame = place(setting, &band);
     yb_frame_begin(frame, &memory.map, view, &setting->screen);
-    for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + band.rows))
+    const uint16_t most = band.rows;
+    for (; band.y < setting->screen.height; band.y = (uint16_t)(band.y + band.rows)) {
+        band.rows = yb_band_rows(&setting->screen, band.y, most);
         yb_frame_band(frame, &band);
+    }
 }
 
 static void measure_frame(const setting_t *setting, int which)

@@ -60,7 +60,9 @@ static void draw(uint32_t camera, const yb_view_t *view)
     yb_mark_begin();
     yb_frame_begin(frame, &memory.map, view, &screen);
     yb_mark_end();
+    const uint16_t most = band.rows;
     for (; band.y < HEIGHT; band.y = (uint16_t)(band.y + band.rows)) {
+        band.rows = yb_band_rows(&screen, band.y, most);
         report_line("region", "band", "", camera * HEIGHT + band.y);
         yb_mark_begin();
         yb_frame_band(frame, &band);

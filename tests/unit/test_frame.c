@@ -120,12 +120,18 @@ static void one_piece_of_memory_is_enough(void **state)
         assert_true(band.y == 0 && band.rows >= 1 && band.rows <= screen->height);
         least = band.rows < least ? band.rows : least;
         yb_frame_begin(placed, &piece.map, &view, screen);
-        for (int y = 0; y < screen->height; y += band.rows) {
+        const uint16_t most = band.rows;
+        int bands = 0;
+        for (int y = 0; y < screen->height; y += band.rows, bands++) {
             band.y = (uint16_t)y;
+            band.rows = yb_band_rows(screen, band.y, most);
+            assert_true(band.rows >= 1 && band.rows <= (y == 0 ? most : screen->height - y));
+            assert_true(y == 0 || band.rows == most);
             yb_frame_band(placed, &band);
-            const int rows = screen->height - y < band.rows ? screen->height - y : band.rows;
-            assert_memory_equal(band.pixels, whole + (size_t)y * pitch, (size_t)rows * pitch);
+            assert_memory_equal(band.pixels, whole + (size_t)y * pitch, band.rows * pitch);
         }
+        assert_int_equal(bands, (screen->height + most - 1) / most);
+        band.rows = most;
         assert_memory_equal(piece.map.vertex, map.vertex, map.vertex_count * sizeof *map.vertex);
         for (yb_triangle_t t = 0; t < map.triangle_count; t++)
             assert_memory_equal(yb_map_triangle(&piece.map, t), map.triangle[t],

@@ -604,6 +604,14 @@ typedef struct {
  */
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band);
 
+/* Rows of the band from row y down, where there is memory for `most`: the first band takes what is
+ * left over, for there is mostly sky, and all below are as tall as they can be.
+ */
+static inline uint16_t yb_band_rows(const yb_screen_t *screen, uint16_t y, uint16_t most)
+{
+    return (uint16_t)((screen->height - 1u - y) % most + 1u);
+}
+
 /* Prepares a frame: turns every vertex into the view once and finds the rows of each triangle.
  * map must stay as it is until the last band is drawn. Never fails.
  */
