@@ -194,13 +194,19 @@ int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3])
     return 2 * bulge + (bulge >> 1);
 }
 
+void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
+                   yb_point_t *point)
+{
+    camera_root(frame, i, point);
+    set_out(view, &point->spot);
+}
+
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
     for (int i = 0; i < 3; i++) {
-        camera_root(frame, corner[i], &frame->root[i]);
-        set_out(view, &frame->root[i].spot);
+        refine_corner(frame, view, corner[i], &frame->root[i]);
         part->point[i] = &frame->root[i];
     }
     part->edge[0] = refine_edge(frame, &frame->root[0], &frame->root[1]);

@@ -104,6 +104,10 @@ static inline bool refine_part_misses(const yb_frame_t *frame, const refine_view
 /* How far the smooth surface may be from the plane of a base triangle. */
 int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3]);
 
+/* A corner of a base triangle: vertex i of the map. */
+void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
+                   yb_point_t *point);
+
 /* A base triangle, with its corners in frame->root. */
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part);

@@ -47,27 +47,23 @@ void walls_begin(yb_frame_t *frame)
     }
 }
 
-/* The wall below a piece of an edge from a to b: b, a and what lies straight below a and b. */
+/* A point of the rim, and what lies straight below it on the base. */
 typedef struct {
-    const yb_point_t *corner[4];
-    yb_point_t foot[2];
-} wall_t;
+    const yb_point_t *top;
+    yb_point_t foot;
+} post_t;
 
-static void find_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                      wall_t *wall)
+static void set_post(const yb_frame_t *frame, const yb_point_t *top, post_t *post)
 {
-    wall->corner[0] = b;
-    wall->corner[1] = a;
-    for (int i = 0; i < 2; i++) {
-        camera_drop(frame, wall->corner[1 - i], frame->base_q8, &wall->foot[i]);
-        wall->corner[2 + i] = &wall->foot[i];
-    }
+    post->top = top;
+    camera_drop(frame, top, frame->base_q8, &post->foot);
 }
 
-static void draw_wall(yb_frame_t *frame, const raster_t *raster, const wall_t *wall)
+/* The wall between two posts, a to the left of b. */
+static void draw_wall(yb_frame_t *frame, const raster_t *raster, const post_t *a, const post_t *b)
 {
-    const yb_point_t *const *corner = wall->corner;
-    uint16_t pixel = shade_wall(frame, corner[1], corner[0]);
+    const yb_point_t *const corner[4] = {b->top, a->top, &a->foot, &b->foot};
+    uint16_t pixel = shade_wall(frame, a->top, b->top);
     frame->stats.refined += 2;
     for (int i = 1; i < 3; i++) {
         const yb_point_t *const p[3] = {corner[0], corner[i], corner[i + 1]};
@@ -77,44 +73,57 @@ static void draw_wall(yb_frame_t *frame, const raster_t *raster, const wall_t *w
     }
 }
 
-/* Refines one edge of a triangle from a to b, left to right: of the points where the parts to come
- * end, and of the edges to them, the last is the one in hand.
+/* Is a wall out of sight, however its rim is refined? */
+static bool wall_misses(const yb_frame_t *frame, const refine_view_t *view, const post_t *a,
+                        const post_t *b, int32_t stray)
+{
+    const yb_point_t *const corner[4] = {b->top, a->top, &a->foot, &b->foot};
+    return refine_misses(frame, view, corner, 4, stray);
+}
+
+/* Refines an edge on the frame, left to right: of the points where the parts to come end, and of
+ * the edges to them, the last is the one in hand.
  */
-static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                      const yb_part_t *part, int which)
+static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
     yb_level_t *level = frame->level;
     const yb_level_t *last = level + YB_MAX_LEVELS - 1;
-    int32_t stray = refine_stray(frame, part);
-    yb_point_t from = *part->point[which];
-    level->rest.point[0] = part->point[which == 2 ? 0 : which + 1];
-    level->rest.edge[0] = part->edge[which];
+    yb_point_t left = frame->root[0];
+    post_t from;
+    set_post(frame, &left, &from);
+    yb_edge_t first = refine_edge(frame, &frame->root[0], &frame->root[1]);
+    /* As a triangle without a third corner it moves no farther than its own. */
+    yb_part_t part = {{&frame->root[0], &frame->root[1], &frame->root[1]}, {first, 0, 0}, 0};
+    if (first >= REFINE_ONCE)
+        part.bulge = refine_bulge(frame->map, part.point);
+    const int32_t stray = refine_stray(frame, &part);
+    level->rest.point[0] = &frame->root[1];
+    level->rest.edge[0] = first;
     for (yb_level_t *at = level;;) {
-        const yb_point_t *to = at->rest.point[0];
         yb_edge_t *edge = &at->rest.edge[0];
-        bool split = *edge >= REFINE_ONCE && at != last;
-        wall_t wall;
-        find_wall(frame, &from, to, &wall);
-        /* Is it out of sight, however the edge is refined? */
-        bool seen = (at != level && !split) || !refine_misses(frame, view, wall.corner, 4, stray);
+        const bool split = *edge >= REFINE_ONCE && at != last;
+        post_t to;
+        set_post(frame, at->rest.point[0], &to);
+        const bool seen = (at != level && !split) || !wall_misses(frame, view, &from, &to, stray);
         if (split && seen) {
             yb_edge_t half = refine_half(*edge);
             bool ask = *edge >= REFINE_AGAIN;
-            refine_middle(frame, view, &from, to, *edge, &at->middle);
+            refine_middle(frame, view, &left, to.top, *edge, &at->middle);
             at[1].rest.point[0] = &at->middle;
             at[1].rest.edge[0] = *edge = half;
             if (ask) {
-                *edge = refine_ask(frame, &at->middle, to, half);
-                at[1].rest.edge[0] = refine_ask(frame, &from, &at->middle, half);
+                *edge = refine_ask(frame, &at->middle, to.top, half);
+                at[1].rest.edge[0] = refine_ask(frame, &left, &at->middle, half);
             }
             at++;
             continue;
         }
         if (seen)
-            draw_wall(frame, raster, &wall);
+            draw_wall(frame, raster, &from, &to);
         if (at == level)
             return;
-        from = *to;
+        left = *to.top;
+        from.foot = to.foot;
         at--;
     }
 }
@@ -127,11 +136,13 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
     for (yb_triangle_t t = 0; t < count; t++) {
         if (!walls_are_below(frame, t) || !refine_touches(frame, t, first_bin, last_bin))
             continue;
-        yb_part_t part;
-        refine_root(frame, view, t, &part);
+        const yb_index_t *corner = yb_map_triangle(frame->map, t);
         for (int i = 0; i < 3; i++) {
-            if (faces(frame, t, i))
-                draw_edge(frame, view, raster, &part, i);
+            if (!faces(frame, t, i))
+                continue;
+            refine_corner(frame, view, corner[i], &frame->root[0]);
+            refine_corner(frame, view, corner[i == 2 ? 0 : i + 1], &frame->root[1]);
+            draw_edge(frame, view, raster);
         }
     }
 }
