@@ -47,12 +47,6 @@ static inline cells_row_t cells_row(const raster_t *raster, int32_t y)
                          band->pixels + line * band->pitch};
 }
 
-static inline void cells_next(const raster_t *raster, cells_row_t *row)
-{
-    row->cell += raster->screen->width;
-    row->pixel += raster->band->pitch;
-}
-
 /* A row from x on; with colours, for without them there are no pixels yet. */
 static inline cells_row_t cells_from(const cells_row_t *row, int32_t x)
 {

@@ -145,7 +145,7 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
     const int32_t right_end = raster_pixel(p[2]->y_q4);
     long_side_t left = long_side(p[y < left_end ? 0 : 1], p[y < left_end ? 1 : 2], y);
     long_side_t right = long_side(p[y < right_end ? 0 : 2], p[y < right_end ? 2 : 1], y);
-    for (cells_row_t row = cells_row(raster, y);; cells_next(raster, &row)) {
+    for (cells_row_t row = cells_row(raster, y);;) {
         int32_t x = fix_max((int32_t)(left.at >> ROWS_PIXEL), 0);
         int32_t end = fix_min((int32_t)(right.at >> ROWS_PIXEL), width);
         if (cuts) {
@@ -156,6 +156,8 @@ void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_lo
         }
         if (++y == end_y)
             return;
+        row.cell += width;
+        row.pixel += raster->band->pitch;
         plane.at_q14 += (uint32_t)plane.along_y;
         left.at += left.step;
         right.at += right.step;

@@ -75,6 +75,8 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     const int32_t centre_q4 = base * 16 - 8;
     side_t left = begin_side(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
     side_t right = begin_side(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
+    const size_t width = raster->screen->width;
+    const size_t pitch = raster->band->pitch;
     cells_row_t row = cells_row(raster, y);
     row = cells_from(&row, base);
     if (cutter != NULL)
@@ -88,7 +90,8 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
         }
         if (++y == end)
             return;
-        cells_next(raster, &row);
+        row.cell += width;
+        row.pixel += pitch;
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)
