@@ -234,6 +234,26 @@ static inline void halve(const yb_frame_t *frame, const yb_point_t *a, const yb_
     }
 }
 
+/* Is a triangle to become many and yet seen as little more than a line? What is inside it is left
+ * whole: else a sliver that is to become n pieces along its sides would become n times n.
+ */
+static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part)
+{
+    const yb_spot_t *a = &part->point[0]->spot;
+    const yb_spot_t *b = &part->point[1]->spot;
+    const yb_spot_t *c = &part->point[2]->spot;
+    if (refine_edges(part) < 4 * REFINE_ONCE || a->near == 0 || b->near == 0 || c->near == 0)
+        return false;
+    const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
+    const int32_t by = (int32_t)b->y_q4 - a->y_q4;
+    const int32_t cx = (int32_t)c->x_q4 - a->x_q4;
+    const int32_t cy = (int32_t)c->y_q4 - a->y_q4;
+    const raster_area_t twice = (raster_area_t)bx * cy - (raster_area_t)by * cx;
+    const int32_t wide = fix_max(fix_abs(bx), fix_abs(cx));
+    const int32_t high = fix_max(fix_abs(by), fix_abs(cy));
+    return (twice < 0 ? -twice : twice) < (raster_area_t)fix_max(wide, high) * frame->thin_q4;
+}
+
 /* The edge between two midpoints, parallel to one that is split and as long as its half. */
 static inline yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a,
                                    const yb_point_t *b, yb_edge_t edge, bool ask)
@@ -274,6 +294,7 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     yb_edge_t bc = part->edge[1];
     yb_edge_t ca = part->edge[2];
     int32_t bulge = part->bulge;
+    const yb_edge_t inside = is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
     yb_edge_t am, mb, bn, nc, co, oa;
     yb_point_t *const m = &level[0].middle;
     refine_middle(frame, view, a, b, ab, m);
@@ -287,7 +308,7 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     refine_middle(frame, view, b, c, bc, n);
     halve(frame, b, n, c, bc, &bn, &nc);
     if (ca < REFINE_ONCE) {
-        yb_edge_t mc = cross_edge(frame, m, c, bc);
+        yb_edge_t mc = cross_edge(frame, m, c, bc) & inside;
         level[0].rest = (yb_part_t){{c, a, m}, {ca, am, mc}, bulge};
         level[1].rest = (yb_part_t){{c, m, n}, {mc, 0, nc}, bulge};
         *part = (yb_part_t){{n, m, b}, {0, mb, bn}, bulge};
@@ -297,9 +318,9 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     refine_middle(frame, view, c, a, ca, o);
     halve(frame, c, o, a, ca, &co, &oa);
     bool ask = (ab | bc | ca) >= REFINE_AGAIN;
-    yb_edge_t on = inner_edge(frame, o, n, ab, ask);
-    yb_edge_t mo = inner_edge(frame, m, o, bc, ask);
-    yb_edge_t mn = inner_edge(frame, m, n, ca, ask);
+    yb_edge_t on = inner_edge(frame, o, n, ab, ask) & inside;
+    yb_edge_t mo = inner_edge(frame, m, o, bc, ask) & inside;
+    yb_edge_t mn = inner_edge(frame, m, n, ca, ask) & inside;
     bulge >>= 2;
     level[0].rest = (yb_part_t){{m, b, n}, {mb, bn, mn}, bulge};
     level[1].rest = (yb_part_t){{m, n, o}, {mn, on, mo}, bulge};
