@@ -13,7 +13,7 @@
 #include "relief.h"
 
 typedef struct {
-    int32_t right, up, depth; /* within 2^17 */
+    int32_t right, up, depth; /* within 2^17; in quarters, where clip.c cuts */
 } camera_point_t;
 
 /* Cuts frame's view to its limits: see yb_view_t. */

@@ -40,7 +40,7 @@ void cells_clear(const raster_t *raster, int32_t y, uint16_t sky)
 
 static void show_grey4(cells_row_t row, size_t width)
 {
-    for (const uint16_t *const end = row.cell + width; row.cell != end; row.cell += 2)
+    for (const uint16_t *const end = row.cell + width; row.cell < end; row.cell += 2)
         *row.pixel++ = (uint8_t)(row.cell[0] << 4 | (row.cell[1] & 15));
 }
 

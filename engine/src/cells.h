@@ -53,7 +53,7 @@ static inline cells_row_t cells_from(const cells_row_t *row, int32_t x)
     return (cells_row_t){row->cell + x, row->pixel + 2 * x};
 }
 
-/* Writes a colour, high byte first: one instruction, where the compiler knows how. */
+/* Writes a colour, high byte first: one store, where a processor can and the compiler knows. */
 static inline void cells_colour(uint8_t *pixel, uint16_t colour)
 {
 #if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__

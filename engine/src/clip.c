@@ -71,8 +71,8 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
         int64_t next = inside_of(frame, q, plane);
         if (inside >= 0)
             corner[polygon->count++] = *p;
-        if ((inside ^ next) <
-            0) { /* from inside to outside, so that it does not matter which is p */
+        /* From inside to outside, so that it does not matter which is p. */
+        if ((inside ^ next) < 0) {
             uint64_t part = (uint64_t)(next < 0 ? inside : next) << 20;
             part /= (uint64_t)(next < 0 ? inside - next : next - inside);
             cut(next < 0 ? p : q, next < 0 ? q : p, (int32_t)part, &corner[polygon->count++]);
@@ -94,7 +94,7 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
     }
     at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
     at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
-    camera_project(frame, at, spot);
+    camera_project(frame, at, spot); /* but for its 1/depth, of a quarter as much */
     spot->near = (uint16_t)camera_near(frame, at->depth / FINER);
 }
 

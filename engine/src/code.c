@@ -44,6 +44,7 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
 
 yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
+    attach(load, map);
     map->vertex_count = load->point_count;
     if (!border_close(load) || !mesh_triangulate(load) || !regions_find(load))
         return YB_ERR_CORRUPT;

@@ -61,7 +61,7 @@ int64_t fix_wide(int32_t a, int32_t b);
 /* The low 32 bits of a * b >> shift, 0 <= shift < 63, rounded down. */
 int32_t fix_product(int32_t a, int32_t b, int shift);
 
-/* a * b / c, rounded towards zero; c is not 0 and the result fits. */
+/* a * b / c, rounded towards zero; |a|, |b|, |c| < 2^31, c is not 0 and the result fits. */
 int32_t fix_scale(int32_t a, int32_t b, int32_t c);
 
 /* a / b, rounded down, but at most so much. Where the engine divides 64 bits they are unsigned: on

@@ -301,8 +301,9 @@ static yb_rule_t rule_of_marked(const yb_load_t *load, yb_index_t low, yb_index_
 
 yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t triangle, int edge)
 {
-    yb_index_t a = map->triangle[triangle][edge];
-    yb_index_t b = map->triangle[triangle][next3(edge)];
+    const yb_index_t *corner = yb_map_triangle(map, triangle);
+    yb_index_t a = corner[edge];
+    yb_index_t b = corner[next3(edge)];
     if (is_marked(load, 4 * (half_t)triangle + edge))
         return rule_of_marked(load, a < b ? a : b, a < b ? b : a);
     /* The way that a branch of a skeleton takes, its beginning included. */

@@ -187,7 +187,8 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
     return stray_in_water(frame, part->point, stray);
 }
 
-/* find_spare, of a triangle all of whose corners have spots. If none of it changes its depth by
+/* find_spare, of a triangle all of whose corners, and walls' feet, have spots. Feet are where they
+ * should be but for the rounding of their own, as corners are. If none of it changes its depth by
  * more than a 64th, all midpoints are made from the spots of their ends: what they may be off from
  * where they should be does not matter, only the rounding of each level.
  */

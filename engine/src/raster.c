@@ -31,7 +31,7 @@ static inline int32_t crossing_of(const side_t *side)
     return (int32_t)side->at >> ROWS_PIXEL;
 }
 
-/* Where speed counts more than size, each size of cells, and lines, has a copy of its own:
+/* Where speed counts more than size, there is a copy with colours, one without, and one for lines:
  * branching on that would be a seventh of what a triangle costs.
  */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)

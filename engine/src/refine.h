@@ -3,7 +3,8 @@
  * Whether an edge is split is a function of the edge alone, so triangles that share one agree. For
  * an edge that lies nearly across the view, or is short, one look at its ends says how often it is
  * to be halved: its halves, and theirs, follow. Of one that comes towards the eye each half is
- * asked anew.
+ * asked anew. Edges inside a base triangle are shared by its own parts only: in slivers they are
+ * left whole.
  */
 #ifndef YB_REFINE_H
 #define YB_REFINE_H

@@ -46,9 +46,7 @@ static inline uint16_t depth_of(uint32_t near_q14)
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
-/* A triangle's cut, as it goes from row to row: what lies below and above a line, and on it, as
- * pixel values or, where all of the triangle has one depth, cells.
- */
+/* A triangle's cut, as it goes from row to row. */
 typedef struct {
     plane_t plane;         /* of the value, less that of a line */
     int32_t half;          /* of a line's width in value, and of the interval, 14 fractional bits */

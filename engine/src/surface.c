@@ -125,7 +125,8 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
     int32_t y = fix_min(y_q8, map->north_q8);
     yb_vertex_t corner[3];
     const yb_vertex_t *const p[3] = {&corner[0], &corner[1], &corner[2]};
-    const yb_vertex_t *part[3];
+    yb_vertex_t middle[3];
+    const yb_vertex_t *part[3]; /* of those */
     int64_t weight[3];
     yb_triangle_t t = 0;
     do {
@@ -134,7 +135,6 @@ int32_t yb_map_height(const yb_map_t *map, uint16_t x_q8, uint16_t y_q8)
     for (;;) {
         const yb_vertex_t next[3] = {*part[0], *part[1], *part[2]};
         memcpy(corner, next, sizeof corner);
-        yb_vertex_t middle[3];
         uint8_t pattern = split_edges(map, p, YB_REFERENCE_Q8, middle);
         if (pattern == 0)
             return plane_height(p, weight);

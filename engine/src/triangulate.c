@@ -3,7 +3,7 @@
  * Three steps, all by flips: every vertex is inserted into the Delaunay triangulation of those
  * before it; every contour edge is forced in; what is not fixed is made Delaunay again. Nothing
  * needs a stack or a list: legalising walks round the new vertex, and forcing an edge in removes
- * the vertices of its channel one by one (see force_edge).
+ * the vertices of its channel one by one (see reach).
  *
  * The result does not depend on the order of work: where four points lie on a circle, the diagonal
  * goes through the one with the smallest index. That is the triangulation of points lifted to the

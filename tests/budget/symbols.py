@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""What the engine asks of the rest of a program: symbols.py libyamabiko.a
+"""What the engine asks of the rest of a program: symbols.py libyamabiko.a VIEWER.elf
 
 Only mem* and the integer helpers that a Cortex-M0 lacks instructions for; no heap, no stdio, no
-floating point.
+floating point. And what a whole program gets for that: no signed division of 64 bits, which is a
+helper of its own.
 """
 
 import re
@@ -36,7 +37,10 @@ def main():
     print("asks for:", " ".join(outside) or "nothing")
     if forbidden:
         print("must not:", " ".join(forbidden), file=sys.stderr)
-    return 1 if forbidden else 0
+    signed = re.search(r"__aeabi_ldivmod", boards.tool("arm-none-eabi-nm", sys.argv[2]))
+    if signed:
+        print(f"{sys.argv[2]} divides signed numbers of 64 bits", file=sys.stderr)
+    return 1 if forbidden or signed else 0
 
 
 if __name__ == "__main__":

@@ -52,7 +52,8 @@ static void draw(uint8_t choice)
     static uint16_t cells[WIDTH * HEIGHT];
     static uint8_t pixels[WIDTH * HEIGHT * 2];
     static uint8_t again[WIDTH * HEIGHT * 2];
-    yb_screen_t screen = {WIDTH, HEIGHT, (choice & 1) != 0 ? YB_GREY4 : YB_RGB565};
+    static const yb_format_t formats[4] = {YB_RGB565, YB_GREY4, YB_MONO, YB_GREY4};
+    yb_screen_t screen = {WIDTH, HEIGHT, formats[(choice & 1) | (choice >> 2 & 2)]};
     yb_view_t view;
     yb_view_init(&view, &map);
     view.max_leaves = 2000;
@@ -72,8 +73,12 @@ static void draw(uint8_t choice)
     yb_band_t band = {0, HEIGHT, cells, pixels, pitch};
     yb_frame_band(&frame, &band);
     for (uint16_t y = 0; y < HEIGHT; y = (uint16_t)(y + 5)) {
-        band = (yb_band_t){y, 5, cells, again + y * pitch, pitch};
+        /* Without colours the pixels may lie where the cells are. */
+        const bool apart = screen.format == YB_RGB565;
+        band = (yb_band_t){y, 5, cells, apart ? again + y * pitch : (uint8_t *)cells, pitch};
         yb_frame_band(&frame, &band);
+        if (!apart)
+            memcpy(again + y * pitch, cells, pitch * (size_t)(HEIGHT - y < 5 ? HEIGHT - y : 5));
     }
     if (memcmp(pixels, again, pitch * HEIGHT) != 0)
         abort();

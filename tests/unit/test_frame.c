@@ -144,6 +144,24 @@ static void one_piece_of_memory_is_enough(void **state)
         assert_null(yb_frame_place(&piece.map, used + row - 1, screen, &band));
         assert_non_null(yb_frame_place(&piece.map, used + row, screen, &band));
         assert_int_equal(band.rows, 1);
+        for (yb_triangle_t t = 0; t < map.triangle_count; t++) {
+            assert_memory_equal(yb_map_triangle(&piece.map, t), map.triangle[t],
+                                sizeof map.triangle[t]);
+            for (int i = 0; i < 3; i++)
+                assert_int_equal(yb_edge_rule(&piece.map, &load, t, i),
+                                 yb_edge_rule(&map, &load, t, i));
+        }
+        assert_int_equal(yb_map_height(&piece.map, 9000, 7000), yb_map_height(&map, 9000, 7000));
+        /* The next map needs all of the memory again. */
+        plan_t plan;
+        uint8_t code[PLAN_MAX_BYTES];
+        static yb_load_t other;
+        static yb_map_t fresh;
+        random_fitting_plan(&plan, &rng);
+        const size_t count = plan_write(&plan, code);
+        assert_int_equal(yb_map_load(&piece.map, &other, code, count), YB_OK);
+        assert_int_equal(yb_map_load(&fresh, &other, code, count), YB_OK);
+        assert_true(map_same(&piece.map, &fresh));
     }
     print_message("bands of %d rows and more\n", least);
     /* As much as is promised for any map, and nothing for a screen without pixels. */

@@ -20,7 +20,8 @@
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM. What a map
  * leaves of its own makes bands taller: yb_frame_place.
  *
- * Threads. Calls on different structs are independent; a loaded map is only read by the frames.
+ * Threads. Calls on different structs are independent; a loaded map is only read by the frames, but
+ * for a map that yb_frame_place has packed: that belongs to its one frame.
  *
  * Trust. Code bytes may be hostile: any byte string ends in YB_OK or an error, in bounded time
  * (about n² steps for n vertices) and in the memory above. Struct contents are trusted.
@@ -138,7 +139,7 @@ typedef struct {
 /* A length class: plan lengths within less than a third of an octave may share one. */
 #define YB_LENGTH_CLASSES 64
 
-/* A map after YB_OK. Read it freely; only the yb_map_ calls write it.
+/* A map after YB_OK. Read it freely; only the yb_map_ calls write it, and yb_frame_place.
  * Vertices: first the contours' points in code order, then those corners that no contour has, then
  * those that the rules added (yb_vertex_rule).
  * Triangles: counter-clockwise seen from above; they tile the frame without gap or overlap.
@@ -453,7 +454,7 @@ void yb_view_sun(yb_view_t *view, uint16_t azimuth_bam, uint16_t elevation_bam);
 /* Casts the shadows of a map as a view's sun (not its lamp), vertical scale and water make them:
  * once, for all frames that share these. `work` has YB_SHADOW_WORK(shadow->side) bytes and is free
  * afterwards. A point is in shadow if the surface, refined to four cells, hides the sun; frames
- * blend from cell to cell. Cost: 64 cells a side take about 2.3 M instructions on a Cortex-M3
+ * blend from cell to cell. Cost: 64 cells a side take about 2.2 M instructions on a Cortex-M3
  * (scripts/bench instructions) and 1 KB of stack.
  */
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work);
@@ -552,7 +553,8 @@ typedef struct {
     yb_point_t middle;
 } yb_level_t;
 
-/* Working memory of a frame. Only stats is for the caller to read. */
+/* Working memory of a frame. Only stats is for the caller to read. From yb_frame_begin on it is not
+ * to be copied or moved. */
 typedef struct {
     yb_stats_t stats;
     /* Bytes and small numbers first, then what is used most: the shortest instructions of small
@@ -598,15 +600,15 @@ typedef struct {
  * need this places a frame of it, and a band from the screen's top with as many rows as there is
  * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
  * 100 vertices leaves 4 KB. Its triangles are moved (yb_map_triangle); the frame is shorter than
- * its type, and not to be copied. The caller may lower band->rows, to a multiple of what a panel
- * wants, say. NULL: there is not room for one row, as there always is in sizeof(yb_map_t) +
- * sizeof(yb_frame_t), two pointers, and a row's cells and, with colours, pixels. Frame and band are
- * the caller's until another map is loaded here.
+ * its type, and not to be copied. The caller may lower band->rows. NULL: there is not room for one
+ * row, as there always is in sizeof(yb_map_t) + sizeof(yb_frame_t), two pointers, and a row's cells
+ * and, with colours, pixels. Frame and band are the caller's until another map is loaded here.
  */
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band);
 
 /* Rows of the band from row y down, where there is memory for `most`: the first band takes what is
- * left over, for there is mostly sky, and all below are as tall as they can be.
+ * left over, for there is mostly sky, and all below are as tall as they can be. y is on the screen,
+ * and `most` is not 0.
  */
 static inline uint16_t yb_band_rows(const yb_screen_t *screen, uint16_t y, uint16_t most)
 {
