@@ -516,6 +516,50 @@ static void leaves_keep_to_their_bound(void **state)
                   1000.0 * (double)slowest / CLOCKS_PER_SEC);
 }
 
+/* Leaves within four steps of the frame's western side. */
+static void count_western(void *context, const yb_point_t *const p[3])
+{
+    uint32_t *count = context;
+    const uint32_t east = YB_REFERENCE_Q8 * 4;
+    *count += (p[0]->place & 0xffff) <= east && (p[1]->place & 0xffff) <= east &&
+              (p[2]->place & 0xffff) <= east;
+}
+
+/* A summit close to a side of the frame: a sliver with three long edges, of which all but its sides
+ * is left whole, without any gap.
+ */
+static void slivers_become_few(void **state)
+{
+    (void)state;
+    rng_t rng = {79};
+    uint32_t few = 0;
+    uint32_t many = 0;
+    for (int round = 0; round < 40; round++) {
+        plan_t plan;
+        do {
+            const plan_point_t summit = {rng_range(&rng, 1, 4), rng_range(&rng, 60, 190)};
+            plan_init(&plan, 255, 255);
+            assert_true(plan_try(&plan, &summit, 1, rng_range(&rng, 1, 20)));
+        } while (!map_fits(&plan));
+        load_plan(&plan);
+        yb_view_t view;
+        yb_view_init(&view, &map);
+        yb_view_orbit(&view, &map, (uint16_t)rng_range(&rng, 0, 65535), YB_DEGREES(60), 300);
+        view.edge_q4 = 60;
+        const yb_screen_t screen = {CRACK_WIDTH, CRACK_HEIGHT, YB_GREY4};
+        yb_frame_begin(&frame, &map, &view, &screen);
+        draw(whole, 0, screen.height);
+        yb_band_t band = {0, screen.height, cells, again, yb_screen_pitch(&screen)};
+        plain_frame(&frame, &band);
+        assert_memory_equal(whole, again, yb_screen_pitch(&screen) * screen.height);
+        (void)plain_leaves(&frame, count_western, &few);
+        frame.thin_q4 = 0;
+        (void)plain_leaves(&frame, count_western, &many);
+    }
+    print_message("%u leaves, else %u\n", (unsigned)few, (unsigned)many);
+    assert_true(2 * few < many);
+}
+
 /* Views of the gallery's kind: gentle maps of some hundred metres' relief, seen from outside,
  * have levels enough; so have nearly all seen on foot.
  */
@@ -654,6 +698,7 @@ int main(void)
         cmocka_unit_test(there_are_no_cracks),
         cmocka_unit_test(what_is_drawn_is_handed_out),
         cmocka_unit_test(leaves_keep_to_their_bound),
+        cmocka_unit_test(slivers_become_few),
         cmocka_unit_test(sane_views_have_levels_enough),
         cmocka_unit_test(walls_meet_the_ground),
         cmocka_unit_test(water_hides_what_is_under_it),
