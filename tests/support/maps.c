@@ -86,6 +86,15 @@ void random_fitting_plan(plan_t *plan, rng_t *rng)
     while (!map_fits(plan));
 }
 
+void random_gentle_plan(plan_t *plan, rng_t *rng, int most_gain)
+{
+    do {
+        random_fitting_plan(plan, rng);
+        plan->gain = plan->gain > most_gain ? most_gain : plan->gain;
+        plan->unit = plan->unit > plan->cell / 4 ? plan->cell / 4 : plan->unit;
+    } while (!map_fits(plan));
+}
+
 int map_vertex_at(const yb_map_t *map, double x, double y)
 {
     for (int i = 0; i < map->vertex_count; i++) {

@@ -25,6 +25,9 @@ bool map_fits(const plan_t *plan);
 /* A random plan whose code the engine takes: see random_plan. */
 void random_fitting_plan(plan_t *plan, rng_t *rng);
 
+/* The same, with no more than so much gain, and relief of some hundred metres. */
+void random_gentle_plan(plan_t *plan, rng_t *rng, int most_gain);
+
 /* The vertex at a place, in steps, or -1. */
 int map_vertex_at(const yb_map_t *map, double x, double y);
 

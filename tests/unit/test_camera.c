@@ -4,20 +4,11 @@
 #include <string.h>
 
 #include "camera.h"
-#include "check.h"
-#include "maps.h"
+#include "loaded_map.h"
 #include "plain_frame.h"
 #include "relief.h"
 
-static yb_map_t map;
-static yb_load_t load;
 static yb_frame_t frame;
-
-static void load_plan(const plan_t *plan)
-{
-    uint8_t bytes[PLAN_MAX_BYTES];
-    assert_int_equal(yb_map_load(&map, &load, bytes, plan_write(plan, bytes)), YB_OK);
-}
 
 /* A bare frame: vertices 0 to 3 are SW, SE, NE, NW. */
 static void load_frame(int east, int north, const int height[4])

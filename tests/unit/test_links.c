@@ -60,7 +60,7 @@ static void twins_meet_where_their_slopes_do(void **state)
     begin_twins(&plan);
     add_peak(&plan, 80, 128, 40, 60);
     add_peak(&plan, 176, 128, 40, 80);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 1);
     assert_int_equal(saddle(0)->x_q8, 141 * 256 + 64);
     assert_int_equal(saddle(0)->y_q8, 128 * 256);
@@ -80,7 +80,7 @@ static void the_steeper_summit_rules(void **state)
     begin_twins(&plan);
     add_peak(&plan, 80, 128, 40, 60);
     add_peak(&plan, 176, 128, 40, 80);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(map_edge(&map, &load, 1, map_vertex_at(&map, 168, 120)), YB_RULE_SLOPE);
     assert_int_equal(map_edge(&map, &load, 0, map_vertex_at(&map, 72, 120)), YB_RULE_SLOPE);
     assert_int_equal(map_edge(&map, &load, 2, map_vertex_at(&map, 184, 120)), YB_RULE_SLOPE);
@@ -99,7 +99,7 @@ static void twin_pits_meet_too(void **state)
     add_line(&plan, parent, 4, 100);
     add_peak(&plan, 80, 128, 80, 60);
     add_peak(&plan, 176, 128, 80, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 1);
     assert_int_equal(saddle(0)->x_q8, 141 * 256 + 64);
     assert_int_equal(saddle(0)->z_q8, 90 * 256);
@@ -113,7 +113,7 @@ static void twins_without_summits_meet_half_way(void **state)
     begin_twins(&plan);
     add_peak(&plan, 80, 128, 40, 0);
     add_peak(&plan, 176, 128, 40, 0);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 1);
     assert_int_equal(saddle(0)->x_q8, 128 * 256);
     assert_int_equal(saddle(0)->z_q8, 30 * 256);
@@ -129,7 +129,7 @@ static void others_are_no_twins(void **state)
         begin_twins(&plan);
         add_peak(&plan, 80, 128, height[i][0], height[i][1]);
         add_peak(&plan, 176, 128, height[i][2], height[i][3]);
-        load_plan(&plan);
+        load_checked(&plan);
         assert_int_equal(saddles(), 0);
     }
 }
@@ -145,7 +145,7 @@ static void nearest_pairs_are_joined_first(void **state)
     add_peak(&plan, 48, 128, 40, 60); /* contours 1 and 2 */
     add_peak(&plan, 176, 128, 40, 60);
     add_peak(&plan, 96, 128, 40, 60);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 2);
     assert_int_equal(saddle(0)->x_q8, 72 * 256);
     assert_int_equal(saddle(1)->x_q8, 136 * 256);
@@ -167,7 +167,7 @@ static void others_do_not_disturb_twins(void **state)
     add_peak(&plan, 176, 80, 40, 60);
     add_peak(&plan, 112, 176, 60, 50);
     add_peak(&plan, 144, 176, 60, 50);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 1);
     assert_int_equal(saddle(0)->z_q8, 30 * 256);
 }
@@ -182,7 +182,7 @@ static void twins_a_unit_above_their_parent(void **state)
     plan.unit = 1;
     add_peak(&plan, 80, 128, 21, 40);
     add_peak(&plan, 176, 128, 21, 40);
-    load_plan(&plan);
+    load_checked(&plan);
 }
 
 /* Round a square: three sides join four peaks, the fourth and the diagonals join nothing. */
@@ -197,7 +197,7 @@ static void four_peaks_have_three_link_points(void **state)
     add_peak(&plan, 168, 88, 40, 60);
     add_peak(&plan, 168, 168, 40, 60);
     add_peak(&plan, 88, 168, 40, 60);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 3);
 }
 
@@ -211,7 +211,7 @@ static void one_link_point_for_two_lines(void **state)
     add_peak(&plan, 176, 128, 40, 80);
     const plan_point_t second = {178, 132};
     add_line(&plan, &second, 1, 70);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 1);
 }
 
@@ -228,7 +228,7 @@ static void bows_are_left_to_the_skeleton(void **state)
     add_line(&plan, bow, 8, 20);
     add_peak(&plan, 64, 176, 40, 60);
     add_peak(&plan, 192, 176, 40, 60);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(saddles(), 0);
     int found = 0;
     for (int v = load.first_skeleton; v < map.vertex_count; v++) {
@@ -254,7 +254,7 @@ static void fans_do_not_cross_their_line(void **state)
     const plan_point_t spot = {56, 180};
     add_line(&plan, ell, 6, 20);
     add_line(&plan, &spot, 1, 30);
-    load_plan(&plan);
+    load_checked(&plan);
     static const int linked[6] = {0, 0, 0, 0, 1, 1};
     for (int k = 0; k < 6; k++)
         assert_int_equal(map_edge(&map, &load, k, 6) == YB_RULE_SUMMIT, linked[k]);

@@ -3,21 +3,13 @@
 #include <string.h>
 
 #include "camera.h"
-#include "check.h"
-#include "maps.h"
 #include "plain_frame.h"
 
 #include "refine.c"
 
-static yb_map_t map;
-static yb_load_t load;
-static yb_frame_t frame;
+#include "loaded_map.h"
 
-static void load_plan(const plan_t *plan)
-{
-    uint8_t bytes[PLAN_MAX_BYTES];
-    assert_int_equal(yb_map_load(&map, &load, bytes, plan_write(plan, bytes)), YB_OK);
-}
+static yb_frame_t frame;
 
 static void begin_random_frame(rng_t *rng, int round)
 {

@@ -3,20 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check.h"
-#include "maps.h"
-
 #include "relief.c"
+
+#include "loaded_map.h"
 #include "split.h"
-
-static yb_map_t map;
-static yb_load_t load;
-
-static void load_plan(const plan_t *plan)
-{
-    uint8_t bytes[PLAN_MAX_BYTES];
-    assert_int_equal(yb_map_load(&map, &load, bytes, plan_write(plan, bytes)), YB_OK);
-}
 
 /* --- The midpoint ----------------------------------------------------------------------------- */
 

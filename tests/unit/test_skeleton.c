@@ -53,7 +53,7 @@ static void a_canyon_has_a_point_in_its_mouth(void **state)
     const plan_point_t dented[] = {{64, 64},   {192, 64},  {192, 192}, {136, 192},
                                    {128, 104}, {120, 192}, {64, 192}};
     add_line(&plan, dented, 7, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     int m = point_at(128, 192);
     int p = map_vertex_at(&map, 128, 224);
     int r = map_vertex_at(&map, 128, 104);
@@ -81,7 +81,7 @@ static void a_canyon_of_a_pit_goes_up(void **state)
     add_line(&plan, parent, 5, 80);
     add_line(&plan, dented, 7, 60);
     add_line(&plan, &spot, 1, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     int m = point_at(128, 192);
     assert_int_equal(map.vertex[m].z_q8, 80 * 256 - 20 * 256 * 32 / 120);
 }
@@ -96,7 +96,7 @@ static void a_long_canyon_rises_evenly(void **state)
                                    {136, 144}, {136, 120}, {128, 88},  {120, 120}, {120, 144},
                                    {120, 168}, {120, 192}, {64, 192}};
     add_line(&plan, dented, 13, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     /* The deepest point of the branch, and from there back to where it began. */
     int last = point_at(128, 120);
     int chain[32];
@@ -135,7 +135,7 @@ static void a_canyon_leaves_by_the_frame(void **state)
     add_line(&plan, &hollow[0], 1, 30);
     add_line(&plan, &hollow[1], 1, 30);
     plan.corner_height[1] = plan.corner_height[2] = 20;
-    load_plan(&plan);
+    load_checked(&plan);
     int v = point_at(0, 128);
     assert_true(load.branch[v].other != v);
     assert_int_equal(map.vertex[v].z_q8, 30 * 256);
@@ -156,7 +156,7 @@ static void two_summits_have_a_saddle(void **state)
     add_line(&plan, leaf, 4, 40);
     add_line(&plan, &spot[0], 1, 60);
     add_line(&plan, &spot[1], 1, 60);
-    load_plan(&plan);
+    load_checked(&plan);
     int v = point_at(124, 128);
     assert_true(load.branch[v].other != v);
     assert_int_equal(map.vertex[v].z_q8, 50 * 256);
@@ -175,7 +175,7 @@ static void a_neck_is_a_saddle(void **state)
     add_line(&plan, glass, 6, 40);
     add_line(&plan, &west, 1, 60);
     add_line(&plan, &east, 1, 80);
-    load_plan(&plan);
+    load_checked(&plan);
     int v = point_at(120, 124);
     assert_true(load.branch[v].other != v);
     assert_in_range(map.vertex[v].z_q8, 40 * 256 + 1, 80 * 256 - 1);
@@ -196,7 +196,7 @@ static void a_cone_needs_none(void **state)
     }
     const plan_point_t spot = {124, 124};
     add_line(&plan, &spot, 1, 80);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(map.vertex_count, 17);
 }
 
@@ -212,7 +212,7 @@ static void a_ridge_goes_on_to_the_frame(void **state)
         const plan_point_t summit[] = {{16, 120}};
         add_line(&plan, back ? here : there, 4, 100);
         add_line(&plan, summit, 1, 150);
-        load_plan(&plan);
+        load_checked(&plan);
         int v = map_vertex_at(&map, 0, 120);
         assert_true(v >= load.first_skeleton);
         assert_int_equal(map.vertex[v].z_q8, 125 * 256);

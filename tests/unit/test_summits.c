@@ -55,7 +55,7 @@ static void three_points_get_one_inside(void **state)
         begin(&plan, pit == 1 ? 30 : 10);
         const plan_point_t ring[] = {{100, 100}, {140, 108}, {116, 140}};
         assert_true(plan_try(&plan, ring, 3, 20));
-        load_plan(&plan);
+        load_checked(&plan);
         assert_int_equal(summits(), 1);
         assert_int_equal(summit(0)->z_q8, 20 * 256 + (pit == 1 ? -1 : 1) * 10 * 256 / 8);
         /* Longest: from the third back to the first, 43 steps. */
@@ -78,7 +78,7 @@ static void the_rise_is_that_of_a_paraboloid(void **state)
     begin(&plan, 0);
     add_square(&plan, 40, 40, 160, 20);
     add_square(&plan, 80, 80, 64, 44);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 1);
     check_rise(0, 44, 24 / 48.0, 64 * 64, 4 * 64);
     assert_int_equal(summit(0)->x_q8, 112 * 256);
@@ -92,7 +92,7 @@ static void a_summit_of_its_own_is_enough(void **state)
     begin(&plan, 10);
     add_square(&plan, 80, 80, 64, 20);
     add_spot(&plan, 100, 120, 21);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 0);
     assert_int_equal(map.vertex_count, 9);
     for (int k = 0; k < 4; k++)
@@ -107,7 +107,7 @@ static void two_summits_share_a_leaf(void **state)
     add_square(&plan, 80, 80, 96, 20);
     add_spot(&plan, 100, 128, 30);
     add_spot(&plan, 156, 128, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 0);
     /* (80, 80): tan = 10 / 52 to the near one, 20 / 90 to the far one, which is the steeper. */
     assert_int_equal(map_edge(&map, &load, 0, 5), YB_RULE_SUMMIT);
@@ -122,7 +122,7 @@ static void a_spot_as_high_as_its_line_is_no_summit(void **state)
     begin(&plan, 10);
     add_square(&plan, 80, 80, 64, 20);
     add_spot(&plan, 100, 120, 20);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 1);
     check_rise(0, 20, 10 / ((80 + 80 + 111 + 111) / 4.0), 64 * 64, 4 * 64);
 }
@@ -136,7 +136,7 @@ static void a_ring_of_one_height_gets_a_summit(void **state)
     add_square(&plan, 40, 40, 120, 40);
     add_square(&plan, 88, 88, 24, 40);
     add_spot(&plan, 100, 100, 100);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 1);
     /* Along 480 steps of line up 30 over 40 or 95 steps, along 96 down 60 over 12: up all in all.
      */
@@ -152,7 +152,7 @@ static void a_crater_goes_down_again(void **state)
     begin(&plan, 10);
     add_square(&plan, 80, 80, 32, 40); /* in code order the crater comes before its rim */
     add_square(&plan, 40, 40, 120, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 2);
     check_rise(0, 40, 30.0 * 480 / (120 * (40 + 40 + 95 + 95)), 120 * 120 - 32 * 32, 480 + 128);
     assert_true(summit(1)->z_q8 < 40 * 256);
@@ -166,7 +166,7 @@ static void a_nest_of_one_height_goes_up_and_down(void **state)
     begin(&plan, 10);
     for (int i = 0; i < 5; i++)
         add_square(&plan, 8 + 24 * i, 8 + 24 * i, 240 - 48 * i, 40);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 5);
 }
 
@@ -176,7 +176,7 @@ static void a_line_round_the_whole_frame(void **state)
     plan_t plan;
     begin(&plan, 0);
     add_square(&plan, 4, 4, 248, 10);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 1);
     assert_int_equal(summit(0)->x_q8, 128 * 256);
     assert_int_equal(summit(0)->y_q8, 128 * 256);
@@ -192,7 +192,7 @@ static void a_corner_cut_off_gets_a_summit(void **state)
     const plan_point_t line[] = {{0, 160}, {160, 0}};
     assert_true(plan_try(&plan, line, 2, 30));
     plan.corner_height[2] = 10;
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 1);
     assert_true(summit(0)->z_q8 > 30 * 256);
     assert_true(summit(0)->x_q8 + summit(0)->y_q8 < 160 * 256);
@@ -209,7 +209,7 @@ static void a_flat_map_stays_flat(void **state)
             add_square(&plan, 80, 80, 64, 7);
         if ((with & 2) != 0)
             add_spot(&plan, 30, 30, 7);
-        load_plan(&plan);
+        load_checked(&plan);
         assert_int_equal(map.vertex_count, plan_vertices(&plan));
     }
 }
@@ -221,7 +221,7 @@ static void the_highest_line_is_no_plateau(void **state)
     plan_t plan;
     begin(&plan, 0);
     add_square(&plan, 80, 80, 64, 512);
-    load_plan(&plan);
+    load_checked(&plan);
     assert_int_equal(summits(), 1);
 }
 
