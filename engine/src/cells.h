@@ -47,10 +47,10 @@ static inline cells_row_t cells_row(const raster_t *raster, int32_t y)
                          band->pixels + line * band->pitch};
 }
 
-/* A row from x on; with colours, for without them there are no pixels yet. */
-static inline cells_row_t cells_from(const cells_row_t *row, int32_t x)
+/* A row from x on. Without colours there are no pixels yet. */
+static inline cells_row_t cells_from(bool colours, const cells_row_t *row, int32_t x)
 {
-    return (cells_row_t){row->cell + x, row->pixel + 2 * x};
+    return (cells_row_t){row->cell + x, row->pixel + (colours ? 2 * x : 0)};
 }
 
 /* Writes a colour, high byte first: one store, where a processor can and the compiler knows. */

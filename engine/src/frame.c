@@ -84,20 +84,19 @@ yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *scree
                          triangles * sizeof *map->triangle);
     const size_t at_band = aligned(map, at_frame + offsetof(yb_frame_t, seen) +
                                             vertices * sizeof(yb_seen_t) + triangles);
-    const size_t pitch = yb_screen_pitch(screen);
-    const size_t cells = screen->width * sizeof *band->cells;
-    const size_t row = cells + (cells_have_colours(screen) ? pitch : 0);
+    const size_t row = yb_band_row_bytes(screen);
     if (row == 0 || bytes < at_band + row)
         return NULL;
     const size_t fit = (bytes - at_band) / row;
     const size_t rows = fit < screen->height ? fit : screen->height;
     uint8_t *memory = (uint8_t *)map;
+    uint16_t *cells = (uint16_t *)(void *)(memory + at_band);
     pack(map);
     *band = (yb_band_t){
         .rows = (uint16_t)rows,
-        .cells = (uint16_t *)(void *)(memory + at_band),
-        .pixels = memory + at_band + (row > cells ? rows * cells : 0),
-        .pitch = pitch,
+        .cells = cells,
+        .pixels = (uint8_t *)(cells_have_colours(screen) ? cells + rows * screen->width : cells),
+        .pitch = yb_screen_pitch(screen),
     };
     return (yb_frame_t *)(void *)(memory + at_frame);
 }

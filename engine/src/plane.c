@@ -73,7 +73,8 @@ static void draw_span(bool colours, const cells_row_t *row, int32_t x, int32_t e
 {
     uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
     for (; x < end; x++, near += (uint32_t)plane->along_x)
-        cells_put(colours, cells_from(row, x), cells_depth(colours, depth_of(near)), pixel);
+        cells_put(colours, cells_from(colours, row, x), cells_depth(colours, depth_of(near)),
+                  pixel);
 }
 
 /* The same, with lines. */
@@ -83,7 +84,7 @@ static void cut_span(bool colours, const cells_row_t *row, int32_t x, int32_t en
     uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
     uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
     for (; x < end; x++) {
-        cells_put(colours, cells_from(row, x), cells_depth(colours, depth_of(near)),
+        cells_put(colours, cells_from(colours, row, x), cells_depth(colours, depth_of(near)),
                   cut_at(cutter, value));
         near += (uint32_t)plane->along_x;
         value += (uint32_t)cutter->plane.along_x;

@@ -31,8 +31,8 @@ static inline int32_t crossing_of(const side_t *side)
     return (int32_t)side->at >> ROWS_PIXEL;
 }
 
-/* Where speed counts more than size, there is a copy with colours, one without, and one for lines:
- * branching on that would be a seventh of what a triangle costs.
+/* Where speed counts more than size, there is a copy with colours and one without, for lines and
+ * for none: branching on that would be a seventh of what a triangle costs.
  */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define COPIED static inline __attribute__((always_inline))
@@ -44,8 +44,8 @@ static inline int32_t crossing_of(const side_t *side)
 COPIED void fill_row(bool colours, const cells_row_t *row, int32_t x, int32_t end, uint16_t depth,
                      uint16_t pixel)
 {
-    cells_row_t at = cells_from(row, x);
-    for (const uint16_t *const to = row->cell + end; at.cell < to; at.cell++, at.pixel += 2)
+    cells_row_t at = cells_from(colours, row, x);
+    for (const uint16_t *const to = row->cell + end; at.cell < to; at = cells_from(colours, &at, 1))
         cells_put(colours, at, depth, pixel);
 }
 
@@ -54,8 +54,11 @@ COPIED void cut_row(bool colours, const cells_row_t *row, int32_t x, int32_t end
                     const cutter_t *cutter)
 {
     uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    for (; x < end; x++, value += (uint32_t)cutter->plane.along_x)
-        cells_put(colours, cells_from(row, x), depth, cut_at(cutter, value));
+    cells_row_t at = cells_from(colours, row, x);
+    for (; x < end; x++, value += (uint32_t)cutter->plane.along_x) {
+        cells_put(colours, at, depth, cut_at(cutter, value));
+        at = cells_from(colours, &at, 1);
+    }
 }
 
 /* Draws a small triangle: in one pixel value, or with lines. */
@@ -78,7 +81,7 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     const size_t width = raster->screen->width;
     const size_t pitch = raster->band->pitch;
     cells_row_t row = cells_row(raster, y);
-    row = cells_from(&row, base);
+    row = cells_from(colours, &row, base);
     if (cutter != NULL)
         cutter->plane.at_q14 += (uint32_t)cutter->plane.along_x * (uint32_t)base;
     for (;;) {
@@ -107,7 +110,10 @@ static bool draw_lines(const raster_t *raster, const raster_shape_t *shape, cons
     cutter_t cutter;
     if (!rows_start_cut(&cutter, cut, shape, fix_max(shape->top, raster->first_row)))
         return false;
-    draw_level(cells_have_colours(raster->screen), raster, shape, 0, &cutter);
+    if (cells_have_colours(raster->screen))
+        draw_level(true, raster, shape, 0, &cutter);
+    else
+        draw_level(false, raster, shape, 0, &cutter);
     return true;
 }
 

@@ -95,15 +95,9 @@ static const setting_t settings[] = {
     {"320x240-rows240", {320, 240, YB_RGB565}, 240, false, ORBITS, NULL},
 };
 
-static uint32_t row_bytes(const setting_t *setting)
-{
-    const uint32_t cells = setting->screen.width * 2u;
-    return setting->screen.format == YB_RGB565 ? 2 * cells : cells; /* and as many for the pixels */
-}
-
 static uint32_t band_bytes(const setting_t *setting)
 {
-    return setting->rows * row_bytes(setting);
+    return (uint32_t)(setting->rows * yb_band_row_bytes(&setting->screen));
 }
 
 /* The frame and the band of a setting: each in its own memory, or in what the map leaves. */

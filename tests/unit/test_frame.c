@@ -98,7 +98,7 @@ static void one_piece_of_memory_is_enough(void **state)
         yb_view_t view;
         const yb_screen_t *screen = random_scene(&rng, round, &view);
         const size_t pitch = yb_screen_pitch(screen);
-        const size_t row = screen->width * 2 + (screen->format == YB_RGB565 ? pitch : 0);
+        const size_t row = yb_band_row_bytes(screen);
         yb_frame_begin(&frame, &map, &view, screen);
         draw(whole, 0, screen->height);
         memset(piece.byte, 0xa5, sizeof piece.byte);

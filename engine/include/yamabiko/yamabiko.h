@@ -497,6 +497,13 @@ typedef struct {
     size_t pitch;     /* bytes from one row of pixels to the next */
 } yb_band_t;
 
+/* Memory that a row of a band takes, in bytes: its cells, and with colours its pixels. */
+static inline size_t yb_band_row_bytes(const yb_screen_t *screen)
+{
+    const size_t cells = screen->width * sizeof(uint16_t);
+    return screen->format == YB_RGB565 ? cells + yb_screen_pitch(screen) : cells;
+}
+
 /* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
 typedef struct {
     uint32_t refined;       /* triangles at the end of refinement */
