@@ -27,6 +27,7 @@ static void attach(yb_load_t *load, yb_map_t *map)
 {
     load->map = map;
     load->vertex = map->vertex;
+    load->across = map->across;
 }
 
 void yb_map_begin(yb_map_t *map, yb_load_t *load)

@@ -79,7 +79,7 @@ uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t n
 {
     int32_t haze = haze_of(frame, near);
     if (frame->screen.format != YB_RGB565) /* there the sky is black */
-        return (uint16_t)(shade * (256 - haze) >> 8);
+        return (uint16_t)fix_max(shade * (256 - haze) >> 8, 1);
     const uint8_t(*palette)[3] = hues[frame->view.palette];
     const uint8_t *full = palette[hue];
     const uint32_t share = (uint32_t)shade + 1; /* of 16 */
@@ -91,7 +91,8 @@ uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t n
         green = blend((int32_t)green, yb_rom_u8(&palette[HUE_HAZE][1]), haze);
         blue = blend((int32_t)blue, yb_rom_u8(&palette[HUE_HAZE][2]), haze);
     }
-    return rgb565(red, green, blue);
+    const uint16_t pixel = rgb565(red, green, blue);
+    return pixel != 0 ? pixel : 1; /* 0 is what nothing is drawn on */
 }
 
 uint16_t colour_sky(const yb_frame_t *frame, int32_t row)

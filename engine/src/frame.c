@@ -3,9 +3,10 @@
 #include <string.h>
 
 #include "camera.h"
-#include "cells.h"
 #include "colour.h"
 #include "fix.h"
+#include "order.h"
+#include "pixels.h"
 #include "refine.h"
 #include "relief.h"
 
@@ -61,9 +62,12 @@ static void begin_lines(yb_frame_t *frame, int32_t stray)
 /* Moves the triangles to behind the last vertex. */
 static void pack(yb_map_t *map)
 {
-    if (!map->packed)
-        memmove(&map->vertex[map->vertex_count], map->triangle,
-                map->triangle_count * sizeof *map->triangle);
+    const size_t count = map->triangle_count;
+    uint8_t *to = (uint8_t *)map + yb_map_packed_at(map);
+    if (!map->packed) {
+        memmove(to, map->across, count * sizeof *map->across);
+        memmove(to + count * sizeof *map->across, map->triangle, count * sizeof *map->triangle);
+    }
     map->packed = true;
 }
 
@@ -79,24 +83,23 @@ yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *scree
 {
     const size_t vertices = map->vertex_count;
     const size_t triangles = map->triangle_count;
-    const size_t at_frame =
-        aligned(map, offsetof(yb_map_t, vertex) + vertices * sizeof *map->vertex +
-                         triangles * sizeof *map->triangle);
-    const size_t at_band = aligned(map, at_frame + offsetof(yb_frame_t, seen) +
-                                            vertices * sizeof(yb_seen_t) + triangles);
+    const size_t at_frame = aligned(
+        map, yb_map_packed_at(map) + triangles * (sizeof *map->across + sizeof *map->triangle));
+    const size_t at_band =
+        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t) +
+                         triangles * (sizeof(yb_triangle_t) + 1));
     const size_t row = yb_band_row_bytes(screen);
     if (row == 0 || bytes < at_band + row)
         return NULL;
     const size_t fit = (bytes - at_band) / row;
     const size_t rows = fit < screen->height ? fit : screen->height;
     uint8_t *memory = (uint8_t *)map;
-    uint16_t *cells = (uint16_t *)(void *)(memory + at_band);
     pack(map);
     *band = (yb_band_t){
         .rows = (uint16_t)rows,
-        .cells = cells,
-        .pixels = (uint8_t *)(cells_have_colours(screen) ? cells + rows * screen->width : cells),
+        .pixels = memory + at_band,
         .pitch = yb_screen_pitch(screen),
+        .greys = memory + at_band,
     };
     return (yb_frame_t *)(void *)(memory + at_frame);
 }
@@ -107,7 +110,8 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->map = map;
     frame->view = *view;
     frame->screen = *screen;
-    frame->bins = (uint8_t *)&frame->seen[map->vertex_count];
+    frame->order = (yb_triangle_t *)(void *)&frame->seen[map->vertex_count];
+    frame->bins = (uint8_t *)&frame->order[map->triangle_count];
     camera_clamp(frame);
     int32_t stray = farthest_stray(frame);
     camera_begin(frame, stray);
@@ -120,9 +124,43 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
     walls_begin(frame);
-    for (yb_triangle_t t = 0; t < map->triangle_count; t++)
-        refine_bin(frame, &whole, t);
+    order_begin(frame);
+    frame->binned = false;
     bound_leaves(frame, &whole);
+}
+
+/* The rows of base triangles, if some bands show only some of them. */
+static void find_bins(yb_frame_t *frame)
+{
+    refine_view_t whole;
+    refine_see(frame, 0, frame->screen.height, &whole);
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
+        refine_bin(frame, &whole, t);
+    frame->binned = true;
+}
+
+/* Draws rows, from the nearest triangle on. */
+static void draw_rows(yb_frame_t *frame, const raster_t *raster)
+{
+    const bool all = raster->first_row == 0 && raster->end_row == frame->screen.height;
+    if (!all && !frame->binned)
+        find_bins(frame);
+    refine_view_t view;
+    refine_see(frame, raster->first_row, raster->end_row, &view);
+    if (frame->view.walls && raster->band != NULL)
+        walls_draw(frame, &view, raster);
+    refine_draw(frame, &view, raster);
+}
+
+/* Rows up to one that wants its triangles in another order are drawn first. */
+static void draw_in_order(yb_frame_t *frame, const raster_t *raster)
+{
+    raster_t some = *raster;
+    for (int32_t y = raster->first_row; y < raster->end_row; y = some.end_row) {
+        some.first_row = y;
+        some.end_row = order_rows(frame, y, raster->end_row);
+        draw_rows(frame, &some);
+    }
 }
 
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
@@ -133,17 +171,10 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
         .first_row = fix_min(band->y, frame->screen.height),
         .end_row = fix_min(band->y + band->rows, frame->screen.height),
     };
-    if (raster.first_row >= raster.end_row)
-        return;
+    pixels_clear(&raster);
+    draw_in_order(frame, &raster);
     for (int32_t y = raster.first_row; y < raster.end_row; y++)
-        cells_clear(&raster, y, colour_sky(frame, y));
-    refine_view_t view;
-    refine_see(frame, raster.first_row, raster.end_row, &view);
-    refine_draw(frame, &view, &raster);
-    if (frame->view.walls)
-        walls_draw(frame, &view, &raster);
-    for (int32_t y = raster.first_row; y < raster.end_row; y++)
-        cells_show(&raster, y);
+        pixels_show(&raster, y, colour_sky(frame, y));
 }
 
 void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)
@@ -155,8 +186,6 @@ void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)
         .context = context,
     };
     yb_stats_t stats = frame->stats;
-    refine_view_t view;
-    refine_see(frame, 0, frame->screen.height, &view);
-    refine_draw(frame, &view, &raster);
+    draw_in_order(frame, &raster);
     frame->stats = stats;
 }

@@ -1,5 +1,6 @@
 /* Triangles with a value that is linear on the screen: 1/depth, or what lines are drawn by. */
 #include "fix.h"
+#include "pixels.h"
 #include "rows.h"
 
 /* --- Planes ----------------------------------------------------------------------------------- */
@@ -67,30 +68,6 @@ static void plane_start(plane_t *plane, const yb_spot_t *const p[3], const int32
                     (uint32_t)plane->along_y * (uint32_t)(y - y0);
 }
 
-/* The cells from x up to end of a row. */
-static void draw_span(bool colours, const cells_row_t *row, int32_t x, int32_t end,
-                      const plane_t *plane, uint16_t pixel)
-{
-    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
-    for (; x < end; x++, near += (uint32_t)plane->along_x)
-        cells_put(colours, cells_from(colours, row, x), cells_depth(colours, depth_of(near)),
-                  pixel);
-}
-
-/* The same, with lines. */
-static void cut_span(bool colours, const cells_row_t *row, int32_t x, int32_t end,
-                     const plane_t *plane, const cutter_t *cutter)
-{
-    uint32_t near = plane->at_q14 + (uint32_t)plane->along_x * (uint32_t)x;
-    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    for (; x < end; x++) {
-        cells_put(colours, cells_from(colours, row, x), cells_depth(colours, depth_of(near)),
-                  cut_at(cutter, value));
-        near += (uint32_t)plane->along_x;
-        value += (uint32_t)cutter->plane.along_x;
-    }
-}
-
 /* --- Lines ------------------------------------------------------------------------------------ */
 
 bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
@@ -126,40 +103,33 @@ static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t
     return (long_side_t){start + slope * (y * 16 + 8 - from->y_q4), slope * 16};
 }
 
-void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
-                  uint16_t pixel, const raster_cut_t *cut)
+void raster_plane(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
+                  const raster_cut_t *cut)
 {
     const yb_spot_t *const *p = shape->p;
     int32_t y = fix_max(shape->top, raster->first_row);
     int32_t end_y = fix_min(shape->bottom, raster->end_row);
     if (y >= end_y)
         return;
-    const bool colours = cells_have_colours(raster->screen);
+    const bool colours = pixels_have_colours(raster->screen);
     const int32_t width = raster->screen->width;
-    plane_t plane = {(uint32_t)mean_near(p) << 14, 0, 0};
-    const int32_t near[3] = {p[0]->near, p[1]->near, p[2]->near};
-    if (look == RASTER_FRONT)
-        plane_start(&plane, p, near, y);
     cutter_t cutter = {.cut = NULL};
     const bool cuts = cut != NULL && rows_start_cut(&cutter, cut, shape, y);
     const int32_t left_end = raster_pixel(p[1]->y_q4);
     const int32_t right_end = raster_pixel(p[2]->y_q4);
     long_side_t left = long_side(p[y < left_end ? 0 : 1], p[y < left_end ? 1 : 2], y);
     long_side_t right = long_side(p[y < right_end ? 0 : 2], p[y < right_end ? 2 : 1], y);
-    for (cells_row_t row = cells_row(raster, y);;) {
+    for (uint8_t *row = pixels_row(raster, y);; row += pixels_pitch(raster)) {
         int32_t x = fix_max((int32_t)(left.at >> ROWS_PIXEL), 0);
         int32_t end = fix_min((int32_t)(right.at >> ROWS_PIXEL), width);
         if (cuts) {
-            cut_span(colours, &row, x, end, &plane, &cutter);
+            rows_cut(colours, row, x, end, &cutter);
             cutter.plane.at_q14 += (uint32_t)cutter.plane.along_y;
         } else {
-            draw_span(colours, &row, x, end, &plane, pixel);
+            rows_fill(colours, row, x, end, pixel);
         }
         if (++y == end_y)
             return;
-        row.cell += width;
-        row.pixel += raster->band->pitch;
-        plane.at_q14 += (uint32_t)plane.along_y;
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)

@@ -1,7 +1,7 @@
 #include "raster.h"
 
-#include "cells.h"
 #include "fix.h"
+#include "pixels.h"
 #include "rows.h"
 
 /* --- Small triangles -------------------------------------------------------------------------- */
@@ -40,27 +40,6 @@ static inline int32_t crossing_of(const side_t *side)
 #define COPIED static
 #endif
 
-/* The cells from x up to end of a row. */
-COPIED void fill_row(bool colours, const cells_row_t *row, int32_t x, int32_t end, uint16_t depth,
-                     uint16_t pixel)
-{
-    cells_row_t at = cells_from(colours, row, x);
-    for (const uint16_t *const to = row->cell + end; at.cell < to; at = cells_from(colours, &at, 1))
-        cells_put(colours, at, depth, pixel);
-}
-
-/* The same, with lines. */
-COPIED void cut_row(bool colours, const cells_row_t *row, int32_t x, int32_t end, uint16_t depth,
-                    const cutter_t *cutter)
-{
-    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    cells_row_t at = cells_from(colours, row, x);
-    for (; x < end; x++, value += (uint32_t)cutter->plane.along_x) {
-        cells_put(colours, at, depth, cut_at(cutter, value));
-        at = cells_from(colours, &at, 1);
-    }
-}
-
 /* Draws a small triangle: in one pixel value, or with lines. */
 COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
                        uint16_t pixel, cutter_t *cutter)
@@ -70,31 +49,27 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     const yb_spot_t *c = shape->p[2];
     int32_t y = fix_max(shape->top, raster->first_row);
     const int32_t end = fix_min(shape->bottom, raster->end_row);
-    const uint16_t depth = cells_depth(colours, mean_near(shape->p));
     /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
     const int32_t left_end = raster_pixel(b->y_q4);
     const int32_t right_end = raster_pixel(c->y_q4);
-    const int32_t base = a->x_q4 >> 4;
+    const int32_t base = a->x_q4 >> 5 << 1; /* even: two greys are a byte */
     const int32_t centre_q4 = base * 16 - 8;
     side_t left = begin_side(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
     side_t right = begin_side(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
-    const size_t width = raster->screen->width;
-    const size_t pitch = raster->band->pitch;
-    cells_row_t row = cells_row(raster, y);
-    row = cells_from(colours, &row, base);
+    const size_t pitch = pixels_pitch(raster);
+    uint8_t *row = pixels_row(raster, y) + (colours ? 2 * base : base / 2);
     if (cutter != NULL)
         cutter->plane.at_q14 += (uint32_t)cutter->plane.along_x * (uint32_t)base;
     for (;;) {
         if (cutter != NULL) {
-            cut_row(colours, &row, crossing_of(&left), crossing_of(&right), depth, cutter);
+            rows_cut(colours, row, crossing_of(&left), crossing_of(&right), cutter);
             cutter->plane.at_q14 += (uint32_t)cutter->plane.along_y;
         } else {
-            fill_row(colours, &row, crossing_of(&left), crossing_of(&right), depth, pixel);
+            rows_fill(colours, row, crossing_of(&left), crossing_of(&right), pixel);
         }
         if (++y == end)
             return;
-        row.cell += width;
-        row.pixel += pitch;
+        row += pitch;
         left.at += left.step;
         right.at += right.step;
         if (y == left_end)
@@ -110,7 +85,7 @@ static bool draw_lines(const raster_t *raster, const raster_shape_t *shape, cons
     cutter_t cutter;
     if (!rows_start_cut(&cutter, cut, shape, fix_max(shape->top, raster->first_row)))
         return false;
-    if (cells_have_colours(raster->screen))
+    if (pixels_have_colours(raster->screen))
         draw_level(true, raster, shape, 0, &cutter);
     else
         draw_level(false, raster, shape, 0, &cutter);
@@ -123,7 +98,7 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
     if (shape->top >= raster->end_row || shape->bottom <= raster->first_row ||
         (cut != NULL && draw_lines(raster, shape, cut)))
         return;
-    if (cells_have_colours(raster->screen))
+    if (pixels_have_colours(raster->screen))
         draw_level(true, raster, shape, pixel, NULL);
     else
         draw_level(false, raster, shape, pixel, NULL);

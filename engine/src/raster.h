@@ -1,4 +1,4 @@
-/* Triangles to cells, of which each has a depth and a pixel value. */
+/* Triangles to pixels, the nearest triangle first. */
 #ifndef YB_RASTER_H
 #define YB_RASTER_H
 
@@ -47,7 +47,7 @@ static inline int32_t raster_pixel(int32_t q4)
 typedef enum {
     RASTER_NOTHING, /* seen from behind, or between two rows of pixels' centres */
     RASTER_FRONT,
-    RASTER_SMALL, /* and small: drawn at one depth */
+    RASTER_SMALL, /* and small */
     RASTER_BEYOND /* a corner has no spot: it must be clipped */
 } raster_look_t;
 
@@ -104,15 +104,15 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
 }
 
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
- * it is nearer than what is there. A pixel is covered if its centre is inside, or on a top or left
- * edge: pixels along the common edge of two triangles are drawn once, none is left out. The first
- * is for small ones alone that lie between the screen's left and right side, at one depth. With a
- * cut (or NULL) both draw its lines.
+ * nothing is drawn yet. A pixel is covered if its centre is inside, or on a top or left edge:
+ * pixels along the common edge of two triangles are drawn once, none is left out. The first is for
+ * small ones alone that lie between the screen's left and right side. With a cut (or NULL) both
+ * draw its lines.
  */
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut);
-void raster_plane(const raster_t *raster, const raster_shape_t *shape, raster_look_t look,
-                  uint16_t pixel, const raster_cut_t *cut);
+void raster_plane(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
+                  const raster_cut_t *cut);
 
 static inline bool raster_on_screen(const raster_t *raster, const yb_spot_t *p)
 {
@@ -126,7 +126,7 @@ static inline void raster_fill(const raster_t *raster, const raster_shape_t *sha
         raster_on_screen(raster, shape->p[1]) && raster_on_screen(raster, shape->p[2]))
         raster_level(raster, shape, pixel, cut);
     else
-        raster_plane(raster, shape, look, pixel, cut);
+        raster_plane(raster, shape, pixel, cut);
 }
 
 /* Both: looks, and draws what is in front, if there is a band. */

@@ -5,6 +5,7 @@
 #include "camera.h"
 #include "clip.h"
 #include "fix.h"
+#include "order.h"
 #include "relief.h"
 #include "shade.h"
 
@@ -213,6 +214,7 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
     part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
     part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, part->point) : 0;
+    order_root(frame, triangle, part);
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */
@@ -279,54 +281,128 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     return (mc & 0xffffff) | (yb_edge_t)often << 24;
 }
 
-/* As SPEC 3.4. A part that is laid aside needs no midpoint above its own place on the stack, or one
- * and the next place's as its last corner. Where only ab is split the line mc is none of its own:
- * it is no longer than the mean of bc and ca, which are left whole.
+/* As SPEC 3.4, the parts in the order of order.h. A part that is laid aside needs no midpoint above
+ * its own place on the stack, or one and the next place's as its last corner.
  */
+static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
+                             yb_level_t *level)
+{
+    const yb_part_t whole = *part;
+    const yb_point_t *const *p = whole.point;
+    yb_point_t *const m = &level[0].middle;
+    yb_edge_t am;
+    yb_edge_t mb;
+    refine_middle(frame, view, p[0], p[1], whole.edge[0], m);
+    halve(frame, p[0], m, p[1], whole.edge[0], &am, &mb);
+    /* The line mc is no edge to be split: it is no longer than the mean of bc and ca, which are
+     * left whole. */
+    const int32_t across = (whole.eye[0] - whole.eye[1]) >> 1;
+    const int32_t along = whole.eye[2] >> 1;
+    const yb_part_t with_a = {
+        {p[2], p[0], m}, {whole.edge[2], am, 0}, {along, across, whole.eye[1]}, whole.bulge};
+    const yb_part_t with_b = {
+        {p[1], p[2], m}, {whole.edge[1], 0, mb}, {-across, along, whole.eye[0]}, whole.bulge};
+    *part = across > 0 ? with_a : with_b;
+    level[0].rest = across > 0 ? with_b : with_a;
+    return level + 1;
+}
+
+static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
+                             yb_level_t *level, yb_edge_t inside)
+{
+    const yb_part_t whole = *part;
+    const yb_point_t *const *p = whole.point;
+    const int32_t *eye = whole.eye;
+    const int32_t half = (eye[0] + eye[1] + eye[2]) >> 1;
+    yb_point_t *const m = &level[0].middle;
+    yb_point_t *const n = &level[1].middle;
+    yb_edge_t am;
+    yb_edge_t mb;
+    yb_edge_t bn;
+    yb_edge_t nc;
+    refine_middle(frame, view, p[0], p[1], whole.edge[0], m);
+    refine_middle(frame, view, p[1], p[2], whole.edge[1], n);
+    halve(frame, p[0], m, p[1], whole.edge[0], &am, &mb);
+    halve(frame, p[1], n, p[2], whole.edge[1], &bn, &nc);
+    const yb_edge_t mc = cross_edge(frame, m, p[2], whole.edge[1]) & inside;
+    const yb_part_t with_b = {
+        {m, p[1], n}, {mb, bn, 0}, {eye[0], eye[1] - half, eye[2]}, whole.bulge};
+    const yb_part_t with_a = {{p[2], p[0], m},
+                              {whole.edge[2], am, mc},
+                              {eye[2] >> 1, (eye[0] - eye[1]) >> 1, eye[1]},
+                              whole.bulge};
+    const yb_part_t with_c = {
+        {p[2], m, n}, {mc, 0, nc}, {half - eye[1], eye[0], eye[1] - eye[0]}, whole.bulge};
+    const bool a_first = eye[0] > eye[1];
+    yb_part_t *to = &level[1].rest;
+    if (eye[1] > half) {
+        *part = with_b;
+    } else {
+        level[0].rest = with_b;
+        *part = a_first ? with_a : with_c;
+        *to = a_first ? with_c : with_a;
+        return level + 2;
+    }
+    *to = a_first ? with_a : with_c;
+    level[0].rest = a_first ? with_c : with_a;
+    return level + 2;
+}
+
+static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
+                               yb_level_t *level, yb_edge_t inside)
+{
+    const int32_t half = (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
+    /* The part with b comes last: the eye is beyond its inner edge. Of all three at most two are on
+     * the eye's side of theirs. */
+    for (int i = 0; i < 2 && part->eye[1] > half; i++)
+        refine_rotate(part);
+    const yb_part_t whole = *part;
+    const yb_point_t *const *p = whole.point;
+    const yb_edge_t *edge = whole.edge;
+    const int32_t *eye = whole.eye;
+    const int32_t bulge = whole.bulge >> 2;
+    yb_point_t *const m = &level[0].middle;
+    yb_point_t *const n = &level[1].middle;
+    yb_point_t *const o = &level[2].middle;
+    yb_edge_t am;
+    yb_edge_t mb;
+    yb_edge_t bn;
+    yb_edge_t nc;
+    yb_edge_t co;
+    yb_edge_t oa;
+    refine_middle(frame, view, p[0], p[1], edge[0], m);
+    refine_middle(frame, view, p[1], p[2], edge[1], n);
+    refine_middle(frame, view, p[2], p[0], edge[2], o);
+    halve(frame, p[0], m, p[1], edge[0], &am, &mb);
+    halve(frame, p[1], n, p[2], edge[1], &bn, &nc);
+    halve(frame, p[2], o, p[0], edge[2], &co, &oa);
+    const bool ask = (edge[0] | edge[1] | edge[2]) >= REFINE_AGAIN;
+    const yb_edge_t on = inner_edge(frame, o, n, edge[0], ask) & inside;
+    const yb_edge_t mo = inner_edge(frame, m, o, edge[1], ask) & inside;
+    const yb_edge_t mn = inner_edge(frame, m, n, edge[2], ask) & inside;
+    const yb_part_t with_a = {{p[0], m, o}, {am, mo, oa}, {eye[0] - half, eye[1], eye[2]}, bulge};
+    const yb_part_t with_c = {{n, p[2], o}, {nc, co, on}, {eye[1], eye[2] - half, eye[0]}, bulge};
+    const yb_part_t middle = {
+        {m, n, o}, {mn, on, mo}, {half - eye[2], half - eye[0], half - eye[1]}, bulge};
+    level[0].rest = (yb_part_t){{m, p[1], n}, {mb, bn, mn}, {eye[0], eye[1] - half, eye[2]}, bulge};
+    const bool a_first = eye[0] > half;
+    const bool c_first = eye[2] > half;
+    *part = a_first ? with_a : c_first ? with_c : middle;
+    level[2].rest = a_first ? (c_first ? with_c : middle) : (c_first ? middle : with_a);
+    level[1].rest = a_first ? (c_first ? middle : with_c) : (c_first ? with_a : with_c);
+    return level + 3;
+}
+
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level)
 {
     refine_turn(part);
-    const yb_point_t *a = part->point[0];
-    const yb_point_t *b = part->point[1];
-    const yb_point_t *c = part->point[2];
-    yb_edge_t ab = part->edge[0];
-    yb_edge_t bc = part->edge[1];
-    yb_edge_t ca = part->edge[2];
-    int32_t bulge = part->bulge;
+    if (part->edge[1] < REFINE_ONCE)
+        return split_one(frame, view, part, level);
     const yb_edge_t inside = is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
-    yb_edge_t am, mb, bn, nc, co, oa;
-    yb_point_t *const m = &level[0].middle;
-    refine_middle(frame, view, a, b, ab, m);
-    halve(frame, a, m, b, ab, &am, &mb);
-    if (bc < REFINE_ONCE) {
-        level[0].rest = (yb_part_t){{m, b, c}, {mb, bc, 0}, bulge};
-        *part = (yb_part_t){{a, m, c}, {am, 0, ca}, bulge};
-        return level + 1;
-    }
-    yb_point_t *const n = &level[1].middle;
-    refine_middle(frame, view, b, c, bc, n);
-    halve(frame, b, n, c, bc, &bn, &nc);
-    if (ca < REFINE_ONCE) {
-        yb_edge_t mc = cross_edge(frame, m, c, bc) & inside;
-        level[0].rest = (yb_part_t){{c, a, m}, {ca, am, mc}, bulge};
-        level[1].rest = (yb_part_t){{c, m, n}, {mc, 0, nc}, bulge};
-        *part = (yb_part_t){{n, m, b}, {0, mb, bn}, bulge};
-        return level + 2;
-    }
-    yb_point_t *const o = &level[2].middle;
-    refine_middle(frame, view, c, a, ca, o);
-    halve(frame, c, o, a, ca, &co, &oa);
-    bool ask = (ab | bc | ca) >= REFINE_AGAIN;
-    yb_edge_t on = inner_edge(frame, o, n, ab, ask) & inside;
-    yb_edge_t mo = inner_edge(frame, m, o, bc, ask) & inside;
-    yb_edge_t mn = inner_edge(frame, m, n, ca, ask) & inside;
-    bulge >>= 2;
-    level[0].rest = (yb_part_t){{m, b, n}, {mb, bn, mn}, bulge};
-    level[1].rest = (yb_part_t){{m, n, o}, {mn, on, mo}, bulge};
-    level[2].rest = (yb_part_t){{o, n, c}, {on, nc, co}, bulge};
-    *part = (yb_part_t){{a, m, o}, {am, mo, oa}, bulge};
-    return level + 3;
+    if (part->edge[2] < REFINE_ONCE)
+        return split_two(frame, view, part, level, inside);
+    return split_three(frame, view, part, level, inside);
 }
 
 bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part)
@@ -409,7 +485,7 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
     if (look == RASTER_SMALL && (some & (REFINE_LEFT | REFINE_RIGHT)) == 0)
         raster_level(raster, &shape, shade.pixel, cuts ? &cut : NULL);
     else
-        raster_plane(raster, &shape, look, shade.pixel, cuts ? &cut : NULL);
+        raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
 }
 
 /* A triangle whose edges are split once or not at all: refine_split, and its parts in the order of
@@ -428,27 +504,44 @@ static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
     frame->stats.refined += three ? 4 : two ? 3 : 2;
     if (walk->raster == NULL)
         return;
+    const int32_t *eye = part->eye;
     yb_point_t *const m = &level[0].middle;
     refine_middle(frame, view, a, b, part->edge[0], m);
+    const bool a_before_b = eye[0] > eye[1];
     if (!two) {
-        leaf(walk, a, m, c);
+        if (a_before_b)
+            leaf(walk, a, m, c);
         leaf(walk, m, b, c);
+        if (!a_before_b)
+            leaf(walk, a, m, c);
         return;
     }
+    const int32_t half = (eye[0] + eye[1] + eye[2]) >> 1;
     yb_point_t *const n = &level[1].middle;
     refine_middle(frame, view, b, c, part->edge[1], n);
-    if (!three) {
+    if (eye[1] > half)
         leaf(walk, n, m, b);
+    if (!three) {
+        if (a_before_b)
+            leaf(walk, c, a, m);
         leaf(walk, c, m, n);
-        leaf(walk, c, a, m);
-        return;
+        if (!a_before_b)
+            leaf(walk, c, a, m);
+    } else {
+        yb_point_t *const o = &level[2].middle;
+        refine_middle(frame, view, c, a, part->edge[2], o);
+        if (eye[0] > half)
+            leaf(walk, a, m, o);
+        if (eye[2] > half)
+            leaf(walk, o, n, c);
+        leaf(walk, m, n, o);
+        if (eye[0] <= half)
+            leaf(walk, a, m, o);
+        if (eye[2] <= half)
+            leaf(walk, o, n, c);
     }
-    yb_point_t *const o = &level[2].middle;
-    refine_middle(frame, view, c, a, part->edge[2], o);
-    leaf(walk, a, m, o);
-    leaf(walk, o, n, c);
-    leaf(walk, m, n, o);
-    leaf(walk, m, b, n);
+    if (eye[1] <= half)
+        leaf(walk, n, m, b);
 }
 
 /* Refines a base triangle and draws what it becomes. */
@@ -482,27 +575,26 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
     } while (refine_next(frame->level, &top, &part));
 }
 
-/* Those base triangles that may touch the rows from first_row up to end_row. */
-static void draw_roots(const walk_t *walk, int32_t first_row, int32_t end_row)
-{
-    const yb_frame_t *frame = walk->frame;
-    const int first_bin = refine_bin_of(frame, first_row);
-    const int last_bin = refine_bin_of(frame, end_row - 1);
-    const yb_triangle_t count = frame->map->triangle_count;
-    for (yb_triangle_t t = 0; t < count; t++) {
-        if (refine_touches(frame, t, first_bin, last_bin))
-            draw_root(walk, t);
-    }
-}
-
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
 {
     const walk_t walk = {frame, view, raster};
-    draw_roots(&walk, raster->first_row, raster->end_row);
+    const yb_triangle_t count = frame->map->triangle_count;
+    if (!frame->binned) {
+        for (yb_triangle_t i = 0; i < count; i++)
+            draw_root(&walk, frame->order[i]);
+        return;
+    }
+    const int first_bin = refine_bin_of(frame, raster->first_row);
+    const int last_bin = refine_bin_of(frame, raster->end_row - 1);
+    for (yb_triangle_t i = 0; i < count; i++) {
+        if (refine_touches(frame, frame->order[i], first_bin, last_bin))
+            draw_root(&walk, frame->order[i]);
+    }
 }
 
 void refine_count(yb_frame_t *frame, const refine_view_t *whole)
 {
     const walk_t walk = {frame, whole, NULL};
-    draw_roots(&walk, 0, frame->screen.height);
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
+        draw_root(&walk, t);
 }

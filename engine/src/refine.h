@@ -126,24 +126,34 @@ static inline bool refine_splits(const yb_part_t *part)
     return refine_edges(part) >= REFINE_ONCE;
 }
 
+/* Begins a triangle with its next corner. */
+static inline void refine_rotate(yb_part_t *part)
+{
+    const yb_point_t *p = part->point[0];
+    const yb_edge_t edge = part->edge[0];
+    const int32_t eye = part->eye[0];
+    part->point[0] = part->point[1];
+    part->point[1] = part->point[2];
+    part->point[2] = p;
+    part->edge[0] = part->edge[1];
+    part->edge[1] = part->edge[2];
+    part->edge[2] = edge;
+    part->eye[0] = part->eye[1];
+    part->eye[1] = part->eye[2];
+    part->eye[2] = eye;
+}
+
 /* Turns a triangle that is to be split so that of the edges that are split ab is the first. */
 static inline void refine_turn(yb_part_t *part)
 {
     while (part->edge[0] < REFINE_ONCE ||
            (part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE)) {
-        const yb_point_t *p = part->point[0];
-        yb_edge_t edge = part->edge[0];
-        part->point[0] = part->point[1];
-        part->point[1] = part->point[2];
-        part->point[2] = p;
-        part->edge[0] = part->edge[1];
-        part->edge[1] = part->edge[2];
-        part->edge[2] = edge;
+        refine_rotate(part);
     }
 }
 
-/* Splits a triangle that is to be split: into its first part, and what is laid aside from `level`
- * on, REFINE_PIECES at most. The answer is what follows it.
+/* Splits a triangle that is to be split: into the part that comes first, and what is laid aside
+ * from `level` on, REFINE_PIECES at most. The answer is what follows it.
  */
 enum {
     REFINE_PIECES = 3
@@ -174,7 +184,9 @@ static inline bool refine_touches(const yb_frame_t *frame, yb_triangle_t triangl
     return bins >> 4 <= last_bin && (bins & 15) >= first_bin && bins >> 4 <= (bins & 15);
 }
 
-/* Refines the base triangles that may touch the rows of a raster, and draws what they become. */
+/* Refines the base triangles that may touch the rows of a raster, in the frame's order, and draws
+ * what they become.
+ */
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
 
 /* Counts the leaves of the whole screen in frame->stats.refined, up to more than the view's bound.
@@ -190,7 +202,7 @@ static inline bool walls_are_below(const yb_frame_t *frame, yb_triangle_t triang
     return (frame->rim[triangle >> 3] & 1 << (triangle & 7)) != 0;
 }
 
-/* Draws the walls below the frame. */
+/* Draws the walls below the frame, which hide the ground where they are seen from outside. */
 void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
 
 #endif

@@ -1,11 +1,11 @@
 /* What the two ways to fill a triangle share: its sides, and what lies between them. raster.c fills
- * small ones at one depth, fast; plane.c all others.
+ * small ones, fast; plane.c all others.
  */
 #ifndef YB_ROWS_H
 #define YB_ROWS_H
 
-#include "cells.h"
 #include "fix.h"
+#include "pixels.h"
 #include "raster.h"
 
 /* --- Rows ------------------------------------------------------------------------------------- */
@@ -38,12 +38,6 @@ typedef struct {
     int32_t along_x, along_y;
 } plane_t;
 
-/* 1/depth, of which it is a plane. */
-static inline uint16_t depth_of(uint32_t near_q14)
-{
-    return (uint16_t)fix_clamp((int32_t)near_q14 >> 14, 1, 65535);
-}
-
 /* --- Lines ------------------------------------------------------------------------------------ */
 
 /* A triangle's cut, as it goes from row to row. */
@@ -71,11 +65,30 @@ static inline uint16_t cut_at(const cutter_t *cutter, uint32_t value)
                                         : cutter->cut->above;
 }
 
-/* A third of three times 16 bits, exact for three equal ones: 98303 * 43691 < 2^32. */
-static inline uint16_t mean_near(const yb_spot_t *const p[3])
+/* --- Pixels ------------------------------------------------------------------------------------
+ */
+
+/* The pixels from x up to end of a row. */
+static inline void rows_fill(bool colours, uint8_t *row, int32_t x, int32_t end, uint16_t pixel)
 {
-    uint32_t sum = (uint32_t)p[0]->near + p[1]->near + p[2]->near + 1;
-    return (uint16_t)((sum >> 1) * (uint32_t)43691 >> 16);
+    if (colours)
+        pixels_fill_colour(row, x, end, pixel);
+    else
+        pixels_fill_grey(row, x, end, pixel);
+}
+
+/* The same, with lines. */
+static inline void rows_cut(bool colours, uint8_t *row, int32_t x, int32_t end,
+                            const cutter_t *cutter)
+{
+    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
+    for (; x < end; x++, value += (uint32_t)cutter->plane.along_x) {
+        const uint16_t pixel = cut_at(cutter, value);
+        if (colours)
+            pixels_put_colour(row + 2 * x, pixels_swapped(pixel));
+        else
+            pixels_put_grey(row, x, pixel);
+    }
 }
 
 #endif

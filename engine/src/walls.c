@@ -93,7 +93,10 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     set_post(frame, &left, &from);
     yb_edge_t first = refine_edge(frame, &frame->root[0], &frame->root[1]);
     /* As a triangle without a third corner it moves no farther than its own. */
-    yb_part_t part = {{&frame->root[0], &frame->root[1], &frame->root[1]}, {first, 0, 0}, 0};
+    yb_part_t part = {
+        .point = {&frame->root[0], &frame->root[1], &frame->root[1]},
+        .edge = {first, 0, 0},
+    };
     if (first >= REFINE_ONCE)
         part.bulge = refine_bulge(frame->map, part.point);
     const int32_t stray = refine_stray(frame, &part);
@@ -134,7 +137,8 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
     const int last_bin = refine_bin_of(frame, raster->end_row - 1);
     const yb_triangle_t count = frame->map->triangle_count;
     for (yb_triangle_t t = 0; t < count; t++) {
-        if (!walls_are_below(frame, t) || !refine_touches(frame, t, first_bin, last_bin))
+        if (!walls_are_below(frame, t) ||
+            (frame->binned && !refine_touches(frame, t, first_bin, last_bin)))
             continue;
         const yb_index_t *corner = yb_map_triangle(frame->map, t);
         for (int i = 0; i < 3; i++) {

@@ -15,9 +15,9 @@
 #include "standard_views.h"
 #include "yamabiko/yamabiko.h"
 
-/* Bytes for a band's depth and pixels: the largest band measured is the largest that fits. */
-#ifndef BENCH_BAND_BYTES
-#error "BENCH_BAND_BYTES: the board's CMake file gives it"
+/* One piece of memory for all: the largest frame measured is the largest that fits. */
+#ifndef BENCH_BYTES
+#error "BENCH_BYTES: the board's CMake file gives it"
 #endif
 
 enum {
@@ -26,16 +26,15 @@ enum {
 
 static uint8_t lit[YB_SHADOW_BYTES(SHADOW_SIDE)];
 static yb_shadow_t shadow = {.side = SHADOW_SIDE, .lit = lit};
-static struct {
-    yb_map_t map; /* what it leaves of its memory makes bands taller */
-    union {
-        struct {
-            yb_frame_t frame;
-            uint32_t band[BENCH_BAND_BYTES / 4];
-        } drawing;
-        yb_load_t load;
-        uint8_t heights[YB_SHADOW_WORK(SHADOW_SIDE)];
-    } work;
+static union {
+    struct {
+        yb_map_t map;
+        union {
+            yb_load_t load;
+            uint8_t heights[YB_SHADOW_WORK(SHADOW_SIDE)];
+        } work;
+    };
+    uint32_t piece[BENCH_BYTES / 4];
 } memory;
 
 /* --- What is measured ------------------------------------------------------------------------- */
@@ -49,13 +48,19 @@ static yb_view_t views[YB_STANDARD_VIEWS];
 typedef struct {
     const char *name;
     yb_screen_t screen;
-    uint16_t rows; /* of a band, if only its own memory is used */
-    bool spare;    /* what the map leaves is used too */
+    uint16_t rows;  /* of a band; 0: as many as fit … */
+    uint16_t bytes; /* … into so much memory for all but the stack */
     uint16_t views;
     void (*look)(yb_view_t *view); /* what is drawn beside the relief, or NULL */
 } setting_t;
 
 #define ORBITS (YB_ORBIT_315 + 1)
+
+/* All of it, but for what the stack takes at most. */
+enum {
+    BYTES_12K = 12 * 1024 - 768,
+    BYTES_32K = 32 * 1024 - 768
+};
 
 static void with_shadows(yb_view_t *view)
 {
@@ -80,40 +85,31 @@ static void with_all(yb_view_t *view)
 }
 
 static const setting_t settings[] = {
-    {"128x64-12k", {128, 64, YB_GREY4}, 10, true, YB_STANDARD_VIEWS, NULL},
-    {"128x64-12k-shadows", {128, 64, YB_GREY4}, 10, true, ORBITS, with_shadows},
-    {"128x64-12k-lines", {128, 64, YB_GREY4}, 10, true, ORBITS, with_lines},
-    {"128x64-12k-haze", {128, 64, YB_GREY4}, 10, true, ORBITS, with_haze},
-    {"128x64-12k-all", {128, 64, YB_GREY4}, 10, true, ORBITS, with_all},
-    {"128x64-rows1", {128, 64, YB_GREY4}, 1, false, ORBITS, NULL},
-    {"128x64-rows4", {128, 64, YB_GREY4}, 4, false, ORBITS, NULL},
-    {"128x64-rows8", {128, 64, YB_GREY4}, 8, false, ORBITS, NULL},
-    {"128x64-rows16", {128, 64, YB_GREY4}, 16, false, ORBITS, NULL},
-    {"128x64-rows64", {128, 64, YB_GREY4}, 64, false, ORBITS, NULL},
-    {"320x240-32k", {320, 240, YB_RGB565}, 18, true, YB_STANDARD_VIEWS, NULL},
-    {"320x240-rows16", {320, 240, YB_RGB565}, 16, false, ORBITS, NULL},
-    {"320x240-rows240", {320, 240, YB_RGB565}, 240, false, ORBITS, NULL},
+    {"128x64-12k", {128, 64, YB_GREY4}, 0, BYTES_12K, YB_STANDARD_VIEWS, NULL},
+    {"128x64-12k-shadows", {128, 64, YB_GREY4}, 0, BYTES_12K, ORBITS, with_shadows},
+    {"128x64-12k-lines", {128, 64, YB_GREY4}, 0, BYTES_12K, ORBITS, with_lines},
+    {"128x64-12k-haze", {128, 64, YB_GREY4}, 0, BYTES_12K, ORBITS, with_haze},
+    {"128x64-12k-all", {128, 64, YB_GREY4}, 0, BYTES_12K, ORBITS, with_all},
+    {"128x64-rows1", {128, 64, YB_GREY4}, 1, 0, ORBITS, NULL},
+    {"128x64-rows4", {128, 64, YB_GREY4}, 4, 0, ORBITS, NULL},
+    {"128x64-rows8", {128, 64, YB_GREY4}, 8, 0, ORBITS, NULL},
+    {"128x64-rows16", {128, 64, YB_GREY4}, 16, 0, ORBITS, NULL},
+    {"128x64-rows64", {128, 64, YB_GREY4}, 64, 0, ORBITS, NULL},
+    {"320x240-32k", {320, 240, YB_RGB565}, 0, BYTES_32K, YB_STANDARD_VIEWS, NULL},
+    {"320x240-rows16", {320, 240, YB_RGB565}, 16, 0, ORBITS, NULL},
+    {"320x240-rows240", {320, 240, YB_RGB565}, 240, 0, ORBITS, NULL},
 };
 
-static uint32_t band_bytes(const setting_t *setting)
-{
-    return (uint32_t)(setting->rows * yb_band_row_bytes(&setting->screen));
-}
-
-/* The frame and the band of a setting: each in its own memory, or in what the map leaves. */
+/* NULL: the board has not so much memory. */
 static yb_frame_t *place(const setting_t *setting, yb_band_t *band)
 {
-    if (setting->spare)
-        return yb_frame_place(&memory.map,
-                              sizeof(yb_map_t) + sizeof(yb_frame_t) + band_bytes(setting),
-                              &setting->screen, band);
-    *band = (yb_band_t){.rows = setting->rows,
-                        .cells = (uint16_t *)(void *)memory.work.drawing.band,
-                        .pitch = yb_screen_pitch(&setting->screen)};
-    band->pixels = (uint8_t *)band->cells;
-    if (setting->screen.format == YB_RGB565)
-        band->pixels += setting->screen.width * 2u * setting->rows;
-    return &memory.work.drawing.frame;
+    const size_t bytes = setting->rows == 0 ? setting->bytes : sizeof memory;
+    yb_frame_t *frame = yb_frame_place(&memory.map, bytes, &setting->screen, band);
+    if (bytes > sizeof memory || frame == NULL || band->rows < setting->rows)
+        return NULL;
+    if (setting->rows != 0)
+        band->rows = setting->rows;
+    return frame;
 }
 
 static void draw(const setting_t *setting, const yb_view_t *view)
@@ -145,7 +141,10 @@ static void measure_frame(const setting_t *setting, int which)
 
 static void measure_frames(const setting_t *setting)
 {
-    report_line("size", "band-", setting->name, band_bytes(setting));
+    yb_band_t band;
+    if (place(setting, &band) == NULL)
+        return;
+    report_line("size", "piece-", setting->name, setting->bytes);
     report_paint_stack();
     for (int which = 0; which < setting->views; which++)
         measure_frame(setting, which);
@@ -198,10 +197,8 @@ static void measure_all(void)
         yb_standard_view_set(&views[which], &memory.map, (yb_standard_view_t)which);
     }
     measure_shadows();
-    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
-        if (band_bytes(&settings[i]) <= BENCH_BAND_BYTES)
-            measure_frames(&settings[i]);
-    }
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++)
+        measure_frames(&settings[i]);
 }
 
 int main(void)

@@ -12,19 +12,15 @@ enum {
     CAMERAS = 125,
     WIDTH = 128,
     HEIGHT = 64,
-    ROW_BYTES = 2 * WIDTH,
-    ROWS = 10 /* there is memory for these, and more where the map leaves some */
+    BYTES = 12 * 1024 - 768 /* all of it, but for what the stack takes at most */
 };
 
-static struct {
-    yb_map_t map;
-    union {
-        struct {
-            yb_frame_t frame;
-            uint8_t band[ROWS * ROW_BYTES];
-        } drawing;
+static union {
+    struct {
+        yb_map_t map;
         yb_load_t load;
-    } work;
+    };
+    uint8_t piece[BYTES];
 } memory;
 
 /* The next of a fixed series, from 0 up to below `end`. */
@@ -73,10 +69,10 @@ static void draw(uint32_t camera, const yb_view_t *view)
 int main(void)
 {
     yb_board_init();
-    yb_map_begin(&memory.map, &memory.work.load);
+    yb_map_begin(&memory.map, &memory.load);
     yb_status_t status = YB_MORE;
     for (size_t i = 0; i < YB_SLOT_BYTES && status == YB_MORE; i++)
-        status = yb_map_feed(&memory.map, &memory.work.load, &yb_slot[i], 1);
+        status = yb_map_feed(&memory.map, &memory.load, &yb_slot[i], 1);
     if (status == YB_OK) {
         uint32_t series = 1;
         /* What the markers themselves cost. */

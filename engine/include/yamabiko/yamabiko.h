@@ -167,15 +167,32 @@ typedef struct {
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
     yb_vertex_t vertex[YB_MAX_VERTICES];
+    yb_across_t
+        across[YB_MAX_TRIANGLES]; /* the triangles beside each: private, as yb_load_t left them */
     yb_index_t triangle[YB_MAX_TRIANGLES][3];
 } yb_map_t;
 
-/* The three corners of a triangle, wherever the map has it: right behind the last vertex, if it is
- * packed, for then all that a map needs is in one piece.
+/* A packed map has its triangles right behind its last vertex, for then all that it needs is in one
+ * piece: first what lies across them, then their corners. So many bytes from its beginning they
+ * begin.
  */
+static inline size_t yb_map_packed_at(const yb_map_t *map)
+{
+    const size_t to = sizeof(yb_across_t);
+    return (offsetof(yb_map_t, vertex) + map->vertex_count * sizeof *map->vertex + to - 1) / to *
+           to;
+}
+
+static inline const yb_across_t *yb_map_across(const yb_map_t *map)
+{
+    const void *packed = (const uint8_t *)map + yb_map_packed_at(map);
+    return map->packed ? (const yb_across_t *)packed : map->across;
+}
+
+/* The three corners of a triangle. */
 static inline const yb_index_t *yb_map_triangle(const yb_map_t *map, yb_triangle_t triangle)
 {
-    const void *packed = &map->vertex[map->vertex_count];
+    const void *packed = yb_map_across(map) + map->triangle_count;
     const yb_index_t *first = map->packed ? (const yb_index_t *)packed : map->triangle[0];
     return first + 3 * (size_t)triangle;
 }
@@ -231,7 +248,8 @@ typedef struct {
     uint16_t section_at, section_size, size;
     yb_status_t result;
     yb_map_t *map;       /* what is loaded, … */
-    yb_vertex_t *vertex; /* … and its vertices */
+    yb_vertex_t *vertex; /* … its vertices, … */
+    yb_across_t *across; /* … and what lies across its triangles' edges */
     union {
         struct { /* compact.c */
             uint32_t range, code;
@@ -261,7 +279,6 @@ typedef struct {
         yb_branch_t branch[YB_MAX_VERTICES];
     };
     /* private: the triangulation */
-    yb_across_t across[YB_MAX_TRIANGLES];
     yb_index_t region[YB_MAX_TRIANGLES];
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
     /* private: what one stage alone needs; each fills it in before it reads it */
@@ -486,22 +503,21 @@ static inline size_t yb_screen_pitch(const yb_screen_t *screen)
                                        : width * 2;
 }
 
-/* Some rows of the screen, and where to draw them: a cell of working memory for each pixel, and the
- * pixels. Without colours the pixels may go where the cells are, if the pitch is no more than a row
- * of cells; elsewhere they stay while the next band is drawn, for a DMA to send.
+/* Some rows of the screen, and where to draw them. While YB_MONO is drawn, its pixels are 16 greys
+ * in memory of its own: the pixels may come to lie where that is, row by row, if their pitch is no
+ * more than its.
  */
 typedef struct {
     uint16_t y, rows; /* first row and how many; rows below the screen are left alone */
-    uint16_t *cells;  /* width * rows */
     uint8_t *pixels;  /* rows * pitch bytes */
     size_t pitch;     /* bytes from one row of pixels to the next */
+    uint8_t *greys;   /* YB_MONO: rows * yb_band_row_bytes; else unused */
 } yb_band_t;
 
-/* Memory that a row of a band takes, in bytes: its cells, and with colours its pixels. */
+/* Memory that a row of a band takes, in bytes. */
 static inline size_t yb_band_row_bytes(const yb_screen_t *screen)
 {
-    const size_t cells = screen->width * sizeof(uint16_t);
-    return screen->format == YB_RGB565 ? cells + yb_screen_pitch(screen) : cells;
+    return screen->format == YB_MONO ? (screen->width + 1u) / 2 : yb_screen_pitch(screen);
 }
 
 /* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
@@ -549,7 +565,8 @@ typedef uint32_t yb_edge_t;
 typedef struct {
     const yb_point_t *point[3];
     yb_edge_t edge[3];
-    int32_t bulge; /* how far the smooth surface may be from its plane */
+    int32_t eye[3]; /* where the eye is: see order.h */
+    int32_t bulge;  /* how far the smooth surface may be from its plane */
 } yb_part_t;
 
 /* What refinement has laid aside: a part of a triangle that is split, until it is taken up, and the
@@ -593,13 +610,18 @@ typedef struct {
     int32_t sway_x_q4; /* farthest that one unit of height moves a point on the screen, … */
     int32_t sway_y_q4; /* … by 1/depth: see refine.c */
     int32_t spare_q4;  /* what rounding in view space does at the near distance */
+    int32_t eye_x_q6, eye_y_q6; /* what triangles are ordered by */
     yb_view_t view;
-    uint8_t *bins; /* of a base triangle: first and last bin, a nibble each; behind what is seen */
+    uint8_t order_for;    /* which rows: see order.c */
+    bool binned;          /* bins are found: a band of all rows needs none */
+    yb_triangle_t *order; /* of the base triangles: behind what is seen */
+    uint8_t *bins; /* of a base triangle: first and last bin, a nibble each; behind the order */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
     yb_point_t root[3];
     yb_level_t level[YB_MAX_LEVELS];
     /* Last, for yb_frame_place: of a map's vertices, and right behind them of its triangles. */
     yb_seen_t seen[YB_MAX_VERTICES];
+    yb_triangle_t order_memory[YB_MAX_TRIANGLES];
     uint8_t bin_memory[YB_MAX_TRIANGLES];
 } yb_frame_t;
 

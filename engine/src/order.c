@@ -1,0 +1,148 @@
+#include "order.h"
+
+#include "fix.h"
+#include "mesh.h"
+
+/* yb_frame_t.order_for. Lines of sight that go round the eye may meet triangles in a circle, each
+ * in front of the next; those that go ahead of it, or back, cannot, for then there is a last one.
+ */
+enum {
+    FOR_NOTHING,
+    FOR_ALL,
+    FOR_AHEAD,
+    FOR_BACK
+};
+
+/* The eye is taken as where it is to 1/64 step. */
+void order_begin(yb_frame_t *frame)
+{
+    frame->eye_x_q6 = frame->view.eye_q8[0] >> 2;
+    frame->eye_y_q6 = frame->view.eye_q8[1] >> 2;
+    frame->order_for = FOR_NOTHING;
+}
+
+/* How far the eye is to the left of the line from a to b, times its length: below 0, to its right;
+ * of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of eighths, so that
+ * in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is below 2^31.
+ */
+static int32_t left_of(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    const int32_t dx = fix_minus(b->x_q8, a->x_q8);
+    const int32_t dy = fix_minus(b->y_q8, a->y_q8);
+#if YB_MAX_VERTICES <= 255
+    return (dx >> 5) * (frame->eye_y_q6 - (a->y_q8 >> 2)) -
+           (dy >> 5) * (frame->eye_x_q6 - (a->x_q8 >> 2));
+#else
+    return (int32_t)(((int64_t)dx * (frame->eye_y_q6 * 4 - a->y_q8) -
+                      (int64_t)dy * (frame->eye_x_q6 * 4 - a->x_q8)) >>
+                     7);
+#endif
+}
+
+void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part)
+{
+    const yb_map_t *map = frame->map;
+    const yb_index_t *corner = yb_map_triangle(map, triangle);
+    const yb_vertex_t *const a = &map->vertex[corner[0]];
+    const yb_vertex_t *const b = &map->vertex[corner[1]];
+    const yb_vertex_t *const c = &map->vertex[corner[2]];
+    /* Halves: sums of two, and those of the long parts of thin triangles, are below 2^31. */
+    part->eye[0] = left_of(frame, b, c) >> 1;
+    part->eye[1] = left_of(frame, c, a) >> 1;
+    part->eye[2] = left_of(frame, a, b) >> 1;
+}
+
+/* Does a vertex lie where the lines of sight go? Products are within 2^19 * 2^12. */
+static bool lies_there(const yb_frame_t *frame, int which, const yb_vertex_t *v)
+{
+    /* The way that the camera looks, in plan, also if it looks straight down. */
+    const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
+    const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
+    const int32_t ahead = (v->x_q8 / 4 - frame->eye_x_q6) * x + (v->y_q8 / 4 - frame->eye_y_q6) * y;
+    return which == FOR_ALL || (which == FOR_AHEAD ? ahead > 0 : ahead < 0);
+}
+
+/* Across which edges of a triangle something may hide it: those that have the eye beyond, a bit
+ * each.
+ */
+static uint8_t hiders_of(const yb_frame_t *frame, int which, const yb_index_t corner[3],
+                         yb_across_t across)
+{
+    uint8_t hiders = 0;
+    for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
+        const yb_vertex_t *a = &frame->map->vertex[corner[i]];
+        const yb_vertex_t *b = &frame->map->vertex[corner[next3(i)]];
+        if ((across & NO_TRIANGLE) != NO_TRIANGLE && left_of(frame, a, b) < 0 &&
+            (lies_there(frame, which, a) || lies_there(frame, which, b)))
+            hiders = (uint8_t)(hiders | 1 << i);
+    }
+    return hiders;
+}
+
+/* Says of a triangle that it no longer hides another one beside it. Was it the last to do so? */
+static bool uncover(uint8_t *hiders, yb_across_t across, yb_triangle_t by)
+{
+    const uint8_t before = *hiders;
+    for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
+        if ((across & NO_TRIANGLE) == by)
+            *hiders = (uint8_t)(*hiders & ~(1 << i));
+    }
+    return before != 0 && *hiders == 0;
+}
+
+/* Each triangle after all that may hide it. False: there is a circle; its triangles come last. */
+static bool sort(yb_frame_t *frame, int which)
+{
+    const yb_across_t *const across = yb_map_across(frame->map);
+    const yb_index_t *corner = yb_map_triangle(frame->map, 0);
+    const yb_triangle_t count = frame->map->triangle_count;
+    yb_triangle_t *const order = frame->order;
+    uint8_t *const hiders = frame->bins; /* not in use yet */
+    yb_triangle_t ready = 0;
+    for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
+        hiders[t] = hiders_of(frame, which, corner, across[t]);
+        if (hiders[t] == 0)
+            order[ready++] = t;
+    }
+    for (yb_triangle_t done = 0; done < ready; done++) {
+        const yb_triangle_t t = order[done];
+        yb_across_t word = across[t];
+        for (int i = 0; i < 3; i++, word >>= ENTRY_BITS) {
+            const yb_triangle_t beside = (yb_triangle_t)(word & NO_TRIANGLE);
+            if (beside != NO_TRIANGLE && uncover(&hiders[beside], across[beside], t))
+                order[ready++] = beside;
+        }
+    }
+    if (ready == count)
+        return true;
+    for (yb_triangle_t t = 0; t < count; t++) {
+        if (hiders[t] != 0)
+            order[ready++] = t;
+    }
+    return false;
+}
+
+/* Do the lines of sight through a row of pixels go ahead, in plan? All of a row go the same way. */
+static int way_of(const yb_frame_t *frame, int32_t row)
+{
+    const int32_t off_q4 = (frame->screen.height - 2 * row - 1) * 8;
+    return frame->up_z * frame->focal_q4 > off_q4 * frame->depth_z ? FOR_AHEAD : FOR_BACK;
+}
+
+int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end)
+{
+    if (frame->order_for == FOR_NOTHING && sort(frame, FOR_ALL))
+        frame->order_for = FOR_ALL;
+    if (frame->order_for == FOR_ALL)
+        return end;
+    const int way = way_of(frame, row);
+    if (frame->order_for != way) {
+        frame->binned = false;
+        sort(frame, way);
+    }
+    frame->order_for = (uint8_t)way;
+    do
+        row++;
+    while (row < end && way_of(frame, row) == way);
+    return row;
+}

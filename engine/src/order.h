@@ -1,0 +1,30 @@
+/* Which triangles may hide which: the order in which a frame draws them, the nearest first.
+ *
+ * The surface has one height at a place, so what lies in front of what is decided in plan: along
+ * any line of sight, by where the line is first. Of two triangles with a common edge the one on the
+ * eye's side of it comes first; of the parts of a triangle, those on the eye's side of the line
+ * that divides it. So a pixel belongs to the first triangle that covers it, and no pixel needs a
+ * depth.
+ *
+ * A triangle knows where the eye is by three numbers (yb_part_t.eye), one a corner: how far the eye
+ * is from the opposite side towards the corner, where the corner itself is as far as all three
+ * together. That sum is halved when a triangle is split, whatever its shape. They are coordinates
+ * in plan, and take no more than additions to follow.
+ */
+#ifndef YB_ORDER_H
+#define YB_ORDER_H
+
+#include <yamabiko/yamabiko.h>
+
+void order_begin(yb_frame_t *frame);
+
+/* Has the base triangles in frame->order as some rows show them, and says up to which, after `row`
+ * and `end` at most: where the camera looks down, rows show what lies ahead of it, and below that
+ * what lies behind.
+ */
+int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end);
+
+/* Where the eye is, for a base triangle. */
+void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part);
+
+#endif

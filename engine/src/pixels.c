@@ -1,0 +1,57 @@
+#include "pixels.h"
+
+#include <string.h>
+
+#include <yamabiko/rom.h>
+
+/* Which of every four pixels of a row are lit at a grey that reaches m of 16, [m][y & 3], the
+ * leftmost in the highest bit, twice: Bayer's order of four by four.
+ */
+static const uint8_t dither[17][4] YB_ROM = {
+    {0x00, 0x00, 0x00, 0x00}, {0x88, 0x00, 0x00, 0x00}, {0x88, 0x00, 0x22, 0x00},
+    {0xaa, 0x00, 0x22, 0x00}, {0xaa, 0x00, 0xaa, 0x00}, {0xaa, 0x44, 0xaa, 0x00},
+    {0xaa, 0x44, 0xaa, 0x11}, {0xaa, 0x55, 0xaa, 0x11}, {0xaa, 0x55, 0xaa, 0x55},
+    {0xee, 0x55, 0xaa, 0x55}, {0xee, 0x55, 0xbb, 0x55}, {0xff, 0x55, 0xbb, 0x55},
+    {0xff, 0x55, 0xff, 0x55}, {0xff, 0xdd, 0xff, 0x55}, {0xff, 0xdd, 0xff, 0x77},
+    {0xff, 0xff, 0xff, 0x77}, {0xff, 0xff, 0xff, 0xff},
+};
+
+void pixels_clear(const raster_t *raster)
+{
+    const size_t bytes = yb_band_row_bytes(raster->screen);
+    for (int32_t y = raster->first_row; y < raster->end_row; y++)
+        memset(pixels_row(raster, y), 0, bytes);
+}
+
+static void show_colours(uint8_t *at, size_t width, uint16_t sky)
+{
+    const uint16_t swapped = pixels_swapped(sky);
+    for (uint8_t *const end = at + 2 * width; at != end; at += 2)
+        pixels_put_colour(at, swapped);
+}
+
+/* The darkest grey that is drawn, 1, lights none, the lightest, 15, all. */
+static void show_mono(const uint8_t *grey, uint8_t *dots, size_t width, int32_t y)
+{
+    for (size_t x = 0; x < width; x += 8) {
+        const size_t left = width - x < 8 ? width - x : 8;
+        unsigned byte = 0;
+        for (size_t i = 0; i < left; i++) {
+            const unsigned shade = grey[(x + i) / 2] >> ((i & 1) != 0 ? 0 : 4) & 15;
+            if (shade > 1)
+                byte |= yb_rom_u8(&dither[shade + (shade >> 3)][y & 3]) & 0x80u >> i;
+        }
+        dots[x / 8] = (uint8_t)byte;
+    }
+}
+
+void pixels_show(const raster_t *raster, int32_t y, uint16_t sky)
+{
+    const yb_screen_t *screen = raster->screen;
+    const yb_band_t *band = raster->band;
+    uint8_t *const row = pixels_row(raster, y);
+    if (screen->format == YB_RGB565)
+        show_colours(row, screen->width, sky);
+    else if (screen->format == YB_MONO)
+        show_mono(row, band->pixels + (size_t)(y - band->y) * band->pitch, screen->width, y);
+}

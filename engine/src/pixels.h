@@ -1,0 +1,100 @@
+/* The pixels of a band, while it is drawn: 0 is what nothing has been drawn on, and what is drawn
+ * stays. With colours they are 16 bits, high byte first; else 16 greys, two a byte, the left one in
+ * the high nibble, of which those of YB_MONO become dots when all is drawn.
+ */
+#ifndef YB_PIXELS_H
+#define YB_PIXELS_H
+
+#include <yamabiko/yamabiko.h>
+
+#include "raster.h"
+
+static inline bool pixels_have_colours(const yb_screen_t *screen)
+{
+    return screen->format == YB_RGB565;
+}
+
+/* Bytes from one row to the next. */
+static inline size_t pixels_pitch(const raster_t *raster)
+{
+    return raster->screen->format == YB_MONO ? yb_band_row_bytes(raster->screen)
+                                             : raster->band->pitch;
+}
+
+/* Row y of the screen. */
+static inline uint8_t *pixels_row(const raster_t *raster, int32_t y)
+{
+    const yb_band_t *band = raster->band;
+    uint8_t *const first = raster->screen->format == YB_MONO ? band->greys : band->pixels;
+    return first + (size_t)(y - band->y) * pixels_pitch(raster);
+}
+
+/* A colour as it lies in memory: one load or store, where a processor can and the compiler knows.
+ */
+static inline uint16_t pixels_swapped(uint16_t colour)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return (uint16_t)(colour << 8 | colour >> 8);
+#else
+    return colour;
+#endif
+}
+
+static inline void pixels_put_colour(uint8_t *at, uint16_t swapped)
+{
+    uint16_t there;
+    __builtin_memcpy(&there, at, sizeof there);
+    if (there == 0)
+        __builtin_memcpy(at, &swapped, sizeof swapped);
+}
+
+/* Draws on what is free of the pixels from x up to end of a row. A pixel value is not 0. */
+static inline void pixels_fill_colour(uint8_t *row, int32_t x, int32_t end, uint16_t colour)
+{
+    const uint16_t swapped = pixels_swapped(colour);
+    uint8_t *const to = row + 2 * end;
+    for (uint8_t *at = row + 2 * x; at < to; at += 2)
+        pixels_put_colour(at, swapped);
+}
+
+static inline void pixels_put_grey(uint8_t *row, int32_t x, unsigned grey)
+{
+    uint8_t *const at = row + (x >> 1);
+    const unsigned high = (x & 1) != 0 ? 0 : 4;
+    if ((*at & 15u << high) == 0)
+        *at = (uint8_t)(*at | grey << high);
+}
+
+static inline void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsigned grey)
+{
+    if (x >= end)
+        return;
+    uint8_t *at = row + (x >> 1);
+    uint8_t *const to = row + (end >> 1);
+    if ((x & 1) != 0) {
+        if ((*at & 15) == 0)
+            *at = (uint8_t)(*at | grey);
+        at++;
+    }
+    const unsigned high = grey << 4;
+    for (; at < to; at++) {
+        unsigned both = *at;
+        if ((both & 0xf0) == 0)
+            both |= high;
+        if ((both & 15) == 0)
+            both |= grey;
+        *at = (uint8_t)both;
+    }
+    if ((end & 1) != 0 && at == to && (*at & 0xf0) == 0)
+        *at = (uint8_t)(*at | high);
+}
+
+/* Nothing drawn, from the first row up to the last. */
+void pixels_clear(const raster_t *raster);
+
+/* Row y as it is to be shown, when all is drawn: the sky where nothing is. No row above it is drawn
+ * on any more.
+ */
+void pixels_show(const raster_t *raster, int32_t y, uint16_t sky);
+
+#endif
