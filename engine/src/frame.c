@@ -130,7 +130,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
 }
 
 /* The rows of base triangles, if some bands show only some of them. */
-static void find_bins(yb_frame_t *frame)
+static void bin_all(yb_frame_t *frame)
 {
     refine_view_t whole;
     refine_see(frame, 0, frame->screen.height, &whole);
@@ -144,7 +144,7 @@ static void draw_rows(yb_frame_t *frame, const raster_t *raster)
 {
     const bool all = raster->first_row == 0 && raster->end_row == frame->screen.height;
     if (!all && !frame->binned)
-        find_bins(frame);
+        bin_all(frame);
     refine_view_t view;
     refine_see(frame, raster->first_row, raster->end_row, &view);
     if (frame->view.walls && raster->band != NULL)

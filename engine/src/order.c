@@ -123,7 +123,7 @@ static bool sort(yb_frame_t *frame, int which)
 }
 
 /* Do the lines of sight through a row of pixels go ahead, in plan? All of a row go the same way. */
-static int way_of(const yb_frame_t *frame, int32_t row)
+static int row_way(const yb_frame_t *frame, int32_t row)
 {
     const int32_t off_q4 = (frame->screen.height - 2 * row - 1) * 8;
     return frame->up_z * frame->focal_q4 > off_q4 * frame->depth_z ? FOR_AHEAD : FOR_BACK;
@@ -135,7 +135,7 @@ int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end)
         frame->order_for = FOR_ALL;
     if (frame->order_for == FOR_ALL)
         return end;
-    const int way = way_of(frame, row);
+    const int way = row_way(frame, row);
     if (frame->order_for != way) {
         frame->binned = false;
         sort(frame, way);
@@ -143,6 +143,6 @@ int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end)
     frame->order_for = (uint8_t)way;
     do
         row++;
-    while (row < end && way_of(frame, row) == way);
+    while (row < end && row_way(frame, row) == way);
     return row;
 }

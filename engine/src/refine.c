@@ -281,6 +281,23 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     return (mc & 0xffffff) | (yb_edge_t)often << 24;
 }
 
+/* How far the eye would be from a side if it were half way to the corner. */
+static inline int32_t half_way(const yb_part_t *part)
+{
+    return (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
+}
+
+/* Turns a triangle whose edges are all split so that the part with its corner b comes last: of the
+ * three outer parts at most two lie on the eye's side of their inner edges. The answer is half_way.
+ */
+static int32_t put_last(yb_part_t *part)
+{
+    const int32_t half = half_way(part);
+    for (int i = 0; i < 2 && part->eye[1] > half; i++)
+        refine_rotate(part);
+    return half;
+}
+
 /* As SPEC 3.4, the parts in the order of order.h. A part that is laid aside needs no midpoint above
  * its own place on the stack, or one and the next place's as its last corner.
  */
@@ -302,8 +319,9 @@ static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view,
         {p[2], p[0], m}, {whole.edge[2], am, 0}, {along, across, whole.eye[1]}, whole.bulge};
     const yb_part_t with_b = {
         {p[1], p[2], m}, {whole.edge[1], 0, mb}, {-across, along, whole.eye[0]}, whole.bulge};
-    *part = across > 0 ? with_a : with_b;
-    level[0].rest = across > 0 ? with_b : with_a;
+    const bool a_first = whole.eye[0] > whole.eye[1];
+    *part = a_first ? with_a : with_b;
+    level[0].rest = a_first ? with_b : with_a;
     return level + 1;
 }
 
@@ -313,7 +331,7 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
     const yb_part_t whole = *part;
     const yb_point_t *const *p = whole.point;
     const int32_t *eye = whole.eye;
-    const int32_t half = (eye[0] + eye[1] + eye[2]) >> 1;
+    const int32_t half = half_way(&whole);
     yb_point_t *const m = &level[0].middle;
     yb_point_t *const n = &level[1].middle;
     yb_edge_t am;
@@ -351,11 +369,7 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
 static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                                yb_level_t *level, yb_edge_t inside)
 {
-    const int32_t half = (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
-    /* The part with b comes last: the eye is beyond its inner edge. Of all three at most two are on
-     * the eye's side of theirs. */
-    for (int i = 0; i < 2 && part->eye[1] > half; i++)
-        refine_rotate(part);
+    const int32_t half = put_last(part);
     const yb_part_t whole = *part;
     const yb_point_t *const *p = whole.point;
     const yb_edge_t *edge = whole.edge;
@@ -488,60 +502,63 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
 }
 
-/* A triangle whose edges are split once or not at all: refine_split, and its parts in the order of
- * refine_next, none of which needs a place on the stack.
+/* A triangle whose edges are split once or not at all: as refine_split, and its parts in the order
+ * of refine_next, none of which needs a place on the stack.
  */
 static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
 {
     yb_frame_t *frame = walk->frame;
     const refine_view_t *view = walk->view;
     refine_turn(part);
-    const yb_point_t *a = part->point[0];
-    const yb_point_t *b = part->point[1];
-    const yb_point_t *c = part->point[2];
-    bool two = part->edge[1] >= REFINE_ONCE;
-    bool three = part->edge[2] >= REFINE_ONCE;
+    const bool two = part->edge[1] >= REFINE_ONCE;
+    const bool three = part->edge[2] >= REFINE_ONCE;
     frame->stats.refined += three ? 4 : two ? 3 : 2;
     if (walk->raster == NULL)
         return;
+    const int32_t half = three ? put_last(part) : half_way(part);
     const int32_t *eye = part->eye;
+    const yb_point_t *a = part->point[0];
+    const yb_point_t *b = part->point[1];
+    const yb_point_t *c = part->point[2];
     yb_point_t *const m = &level[0].middle;
     refine_middle(frame, view, a, b, part->edge[0], m);
-    const bool a_before_b = eye[0] > eye[1];
+    bool a_first = eye[0] > eye[1];
     if (!two) {
-        if (a_before_b)
-            leaf(walk, a, m, c);
-        leaf(walk, m, b, c);
-        if (!a_before_b)
-            leaf(walk, a, m, c);
+        if (a_first)
+            leaf(walk, c, a, m);
+        leaf(walk, b, c, m);
+        if (!a_first)
+            leaf(walk, c, a, m);
         return;
     }
-    const int32_t half = (eye[0] + eye[1] + eye[2]) >> 1;
     yb_point_t *const n = &level[1].middle;
     refine_middle(frame, view, b, c, part->edge[1], n);
-    if (eye[1] > half)
-        leaf(walk, n, m, b);
     if (!three) {
-        if (a_before_b)
+        if (eye[1] > half)
+            leaf(walk, m, b, n);
+        if (a_first)
             leaf(walk, c, a, m);
         leaf(walk, c, m, n);
-        if (!a_before_b)
+        if (!a_first)
             leaf(walk, c, a, m);
-    } else {
-        yb_point_t *const o = &level[2].middle;
-        refine_middle(frame, view, c, a, part->edge[2], o);
-        if (eye[0] > half)
-            leaf(walk, a, m, o);
-        if (eye[2] > half)
-            leaf(walk, o, n, c);
-        leaf(walk, m, n, o);
-        if (eye[0] <= half)
-            leaf(walk, a, m, o);
-        if (eye[2] <= half)
-            leaf(walk, o, n, c);
+        if (eye[1] <= half)
+            leaf(walk, m, b, n);
+        return;
     }
-    if (eye[1] <= half)
-        leaf(walk, n, m, b);
+    yb_point_t *const o = &level[2].middle;
+    refine_middle(frame, view, c, a, part->edge[2], o);
+    a_first = eye[0] > half;
+    const bool c_first = eye[2] > half;
+    if (a_first)
+        leaf(walk, a, m, o);
+    if (c_first)
+        leaf(walk, n, c, o);
+    leaf(walk, m, n, o);
+    if (!a_first)
+        leaf(walk, a, m, o);
+    if (!c_first)
+        leaf(walk, n, c, o);
+    leaf(walk, m, b, n);
 }
 
 /* Refines a base triangle and draws what it becomes. */

@@ -14,7 +14,6 @@ static union {
     yb_load_t load;
     yb_frame_t frame;
 } work;
-static uint16_t cells[WIDTH * HEIGHT];
 static uint8_t pixels[PITCH * HEIGHT];
 
 int main(int argc, char **argv)
@@ -29,7 +28,7 @@ int main(int argc, char **argv)
     }
 
     const yb_screen_t screen = {.width = WIDTH, .height = HEIGHT, .format = YB_GREY4};
-    const yb_band_t all = {.rows = HEIGHT, .cells = cells, .pixels = pixels, .pitch = PITCH};
+    const yb_band_t all = {.rows = HEIGHT, .pixels = pixels, .pitch = PITCH};
     yb_view_t view;
     yb_view_init(&view, &map);
     yb_view_orbit(&view, &map, YB_DEGREES(45), YB_DEGREES(30), 307);

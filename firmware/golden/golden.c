@@ -50,7 +50,7 @@ static union {
     uint8_t shadow[YB_SHADOW_WORK(GOLDEN_SHADOW_SIDE)];
     struct {
         yb_frame_t frame;
-        uint16_t cells[(size_t)MOST_WIDTH * GOLDEN_ROWS];
+        uint8_t greys[(size_t)MOST_WIDTH / 2 * GOLDEN_ROWS];
         uint8_t pixels[(size_t)MOST_PITCH * GOLDEN_ROWS];
     } drawing;
 } work;
@@ -141,9 +141,9 @@ static uint64_t draw(const yb_screen_t *screen, uint16_t rows, const yb_view_t *
 {
     yb_frame_t *frame = &work.drawing.frame;
     yb_band_t band = {.rows = rows,
-                      .cells = work.drawing.cells,
                       .pixels = work.drawing.pixels,
-                      .pitch = yb_screen_pitch(screen)};
+                      .pitch = yb_screen_pitch(screen),
+                      .greys = work.drawing.greys};
     uint64_t hash = FNV_START;
     yb_frame_begin(frame, &map, view, screen);
     for (; band.y < screen->height; band.y = (uint16_t)(band.y + band.rows)) {

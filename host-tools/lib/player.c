@@ -27,7 +27,7 @@ struct yb_player {
     double lines_m; /* the interval that was asked for; 0: a round one of the map's own */
     bool lines, shadows;
     yb_frame_t *frame;
-    uint16_t *cells;
+    uint8_t *greys;
     yb_shadow_t *shadow;
     uint8_t *shadow_work;
     bool shadow_cast; /* for this map and sun */
@@ -77,9 +77,8 @@ yb_player_t *yb_player_new(const yb_play_t *play, yb_map_list_t *list)
         player->play.view.given |= 1u << (YB_OPTION_AZIMUTH - YB_OPTION_SIZE);
     }
     player->frame = malloc(sizeof(*player->frame));
-    player->cells =
-        malloc((size_t)play->view.screen.width * play->band_rows * sizeof(*player->cells));
-    if (take_shadows(player) && player->frame != NULL && player->cells != NULL)
+    player->greys = malloc(yb_band_row_bytes(&play->view.screen) * play->band_rows);
+    if (take_shadows(player) && player->frame != NULL && player->greys != NULL)
         return player;
     yb_player_free(player);
     return NULL;
@@ -91,7 +90,7 @@ void yb_player_free(yb_player_t *player)
         return;
     yb_code_file_free(player->file);
     free(player->frame);
-    free(player->cells);
+    free(player->greys);
     free(player->shadow);
     free(player->shadow_work);
     free(player);
@@ -193,9 +192,9 @@ static void draw_bands(yb_player_t *player, const yb_view_t *view, yb_outlet_t *
         uint8_t *pixels = yb_outlet_band(outlet, (uint16_t)y);
         const yb_band_t band = {.y = (uint16_t)y,
                                 .rows = rows,
-                                .cells = player->cells,
                                 .pixels = pixels,
-                                .pitch = pitch};
+                                .pitch = pitch,
+                                .greys = player->greys};
         if (view != NULL)
             yb_frame_band(player->frame, &band);
         else

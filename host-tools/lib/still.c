@@ -22,7 +22,7 @@ static yb_shadow_t *cast(const yb_map_t *map, const yb_view_t *view, uint16_t si
     return shadow;
 }
 
-static void draw(yb_still_t *still, const yb_map_t *map, yb_frame_t *frame, uint16_t *cells,
+static void draw(yb_still_t *still, const yb_map_t *map, yb_frame_t *frame, uint8_t *greys,
                  uint16_t rows)
 {
     const yb_screen_t *screen = &still->screen;
@@ -33,9 +33,9 @@ static void draw(yb_still_t *still, const yb_map_t *map, yb_frame_t *frame, uint
         const uint32_t left = screen->height - y;
         const yb_band_t band = {.y = (uint16_t)y,
                                 .rows = (uint16_t)(left < rows ? left : rows),
-                                .cells = cells,
                                 .pixels = still->pixels + y * pitch,
-                                .pitch = pitch};
+                                .pitch = pitch,
+                                .greys = greys};
         yb_frame_band(frame, &band);
     }
     still->stats = frame->stats;
@@ -48,19 +48,19 @@ bool yb_still_draw(yb_still_t *still, const yb_map_t *map, const yb_view_t *view
     *still = (yb_still_t){.view = *view, .screen = *screen, .shadow_side = shadow_side};
     still->pixels = malloc(yb_screen_pitch(screen) * screen->height);
     yb_frame_t *frame = malloc(sizeof(*frame));
-    uint16_t *cells = malloc((size_t)screen->width * rows * sizeof(*cells));
+    uint8_t *greys = malloc(yb_band_row_bytes(screen) * rows);
     yb_shadow_t *shadow = shadow_side > 0 ? cast(map, view, shadow_side) : NULL;
     still->view.shadow = shadow;
-    const bool good = still->pixels != NULL && frame != NULL && cells != NULL &&
+    const bool good = still->pixels != NULL && frame != NULL && greys != NULL &&
                       (shadow != NULL || shadow_side == 0);
     if (good)
-        draw(still, map, frame, cells, rows);
+        draw(still, map, frame, greys, rows);
     else
         yb_still_free(still);
     still->view.shadow = NULL;
     free(shadow);
     free(frame);
-    free(cells);
+    free(greys);
     return good;
 }
 

@@ -51,11 +51,10 @@ int main(int argc, char **argv)
     }
     const yb_screen_t screen = {(uint16_t)width, (uint16_t)height, YB_RGB565};
     const size_t pitch = yb_screen_pitch(&screen);
-    uint16_t *cells = malloc(sizeof *cells * width * height);
     uint8_t *pixels = malloc(pitch * height);
     double drawn = 0;
     double spent_us = 0;
-    bool good = cells != NULL && pixels != NULL;
+    bool good = pixels != NULL;
     for (int i = 3; good && i < argc; i++) {
         good = load_map(argv[i]);
         for (unsigned k = 0; good && k < FRAMES; k++) {
@@ -63,7 +62,7 @@ int main(int argc, char **argv)
             yb_view_init(&view, &map);
             view.edge_q4 = (uint16_t)strtoul(argv[2], NULL, 10);
             yb_view_orbit(&view, &map, (uint16_t)(65536 / FRAMES * k), YB_DEGREES(30), 307);
-            const yb_band_t band = {0, screen.height, cells, pixels, pitch};
+            const yb_band_t band = {0, screen.height, pixels, pitch, NULL};
             const double before = now_us();
             yb_frame_begin(&frame, &map, &view, &screen);
             yb_frame_band(&frame, &band);
@@ -73,7 +72,6 @@ int main(int argc, char **argv)
     }
     if (good)
         printf("%.0f %.0f\n", spent_us / (FRAMES * (argc - 3)), drawn / (FRAMES * (argc - 3)));
-    free(cells);
     free(pixels);
     return good ? 0 : 1;
 }

@@ -107,11 +107,10 @@ static uint8_t crc_of(const uint8_t *bytes, size_t count)
 
 static void draw(uint16_t azimuth_bam)
 {
-    static uint16_t cells[64 * 32];
     static uint8_t pixels[64 * 32 / 2];
     yb_view_t view;
     const yb_screen_t screen = {.width = 64, .height = 32, .format = YB_GREY4};
-    const yb_band_t band = {.rows = 32, .cells = cells, .pixels = pixels, .pitch = 32};
+    const yb_band_t band = {.rows = 32, .pixels = pixels, .pitch = 32};
     yb_view_init(&view, &map);
     yb_view_orbit(&view, &map, azimuth_bam, YB_DEGREES(20), 260);
     view.max_leaves = 2000;

@@ -49,7 +49,7 @@ static void check_mesh(void)
 
 static void draw(uint8_t choice)
 {
-    static uint16_t cells[WIDTH * HEIGHT];
+    static uint8_t greys[WIDTH * HEIGHT / 2];
     static uint8_t pixels[WIDTH * HEIGHT * 2];
     static uint8_t again[WIDTH * HEIGHT * 2];
     static const yb_format_t formats[4] = {YB_RGB565, YB_GREY4, YB_MONO, YB_GREY4};
@@ -70,15 +70,15 @@ static void draw(uint8_t choice)
     }
     yb_frame_begin(&frame, &map, &view, &screen);
     size_t pitch = yb_screen_pitch(&screen);
-    yb_band_t band = {0, HEIGHT, cells, pixels, pitch};
+    yb_band_t band = {0, HEIGHT, pixels, pitch, greys};
     yb_frame_band(&frame, &band);
     for (uint16_t y = 0; y < HEIGHT; y = (uint16_t)(y + 5)) {
-        /* Without colours the pixels may lie where the cells are. */
-        const bool apart = screen.format == YB_RGB565;
-        band = (yb_band_t){y, 5, cells, apart ? again + y * pitch : (uint8_t *)cells, pitch};
+        /* Dots may come to lie where the greys are. */
+        const bool apart = screen.format != YB_MONO;
+        band = (yb_band_t){y, 5, apart ? again + y * pitch : greys, pitch, greys};
         yb_frame_band(&frame, &band);
         if (!apart)
-            memcpy(again + y * pitch, cells, pitch * (size_t)(HEIGHT - y < 5 ? HEIGHT - y : 5));
+            memcpy(again + y * pitch, greys, pitch * (size_t)(HEIGHT - y < 5 ? HEIGHT - y : 5));
     }
     if (memcmp(pixels, again, pitch * HEIGHT) != 0)
         abort();

@@ -27,7 +27,7 @@ enum {
 static yb_map_t map;
 static yb_load_t load;
 static yb_frame_t frame;
-static uint16_t cells[WIDTH * HEIGHT];
+static uint8_t greys[WIDTH * HEIGHT / 2];
 static uint8_t pixels[WIDTH * HEIGHT * 2];
 static const char *pictures;
 
@@ -110,7 +110,7 @@ static uint64_t frame_hash(int which, const yb_screen_t *screen)
     golden_view_set(which, &view, &map, work);
     yb_frame_begin(&frame, &map, &view, screen);
     size_t pitch = yb_screen_pitch(screen);
-    yb_band_t band = {0, screen->height, cells, pixels, pitch};
+    yb_band_t band = {0, screen->height, pixels, pitch, greys};
     yb_frame_band(&frame, &band);
     return fnv_bytes(FNV_START, pixels, pitch * screen->height);
 }

@@ -3,9 +3,10 @@
 #include <stdlib.h>
 
 #include "camera.h"
-#include "cells.h"
 #include "clip.h"
 #include "colour.h"
+#include "order.h"
+#include "pixels.h"
 #include "raster.h"
 #include "refine.h"
 #include "relief.h"
@@ -65,17 +66,21 @@ static void walk(walk_t *at, yb_part_t part, int used)
     } while (refine_next(rest, &top, &part));
 }
 
-uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context)
+uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)
 {
-    static yb_frame_t copy; /* for its roots */
-    copy = *frame;
     walk_t at = {frame, &plain_view, fn, context, 0};
-    for (int t = 0; t < frame->map->triangle_count; t++) {
+    for (int i = 0; i < frame->map->triangle_count; i++) {
         yb_part_t root;
-        refine_root(&copy, &plain_view, (yb_triangle_t)t, &root);
+        refine_root(frame, &plain_view, frame->order[i], &root);
         walk(&at, root, 0);
     }
     return at.count;
+}
+
+uint32_t plain_leaves(yb_frame_t *frame, plain_leaf_fn fn, void *context)
+{
+    (void)order_rows(frame, 0, 1);
+    return plain_ordered(frame, fn, context);
 }
 
 typedef struct {
@@ -106,14 +111,20 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
-    drawing_t drawing = {frame, {&frame->screen, band, 0, frame->screen.height, NULL, NULL}};
-    for (int32_t y = 0; y < frame->screen.height; y++)
-        cells_clear(&drawing.raster, y, colour_sky(frame, y));
-    (void)plain_leaves(frame, draw_leaf, &drawing);
-    if (frame->view.walls)
-        walls_draw(frame, &plain_view, &drawing.raster);
-    for (int32_t y = 0; y < frame->screen.height; y++)
-        cells_show(&drawing.raster, y);
+    const int32_t height = frame->screen.height;
+    drawing_t drawing = {frame, {&frame->screen, band, 0, height, NULL, NULL}};
+    raster_t *raster = &drawing.raster;
+    pixels_clear(raster);
+    for (int32_t y = 0; y < height; y = raster->end_row) {
+        raster->first_row = y;
+        raster->end_row = order_rows(frame, y, height);
+        frame->binned = false;
+        if (frame->view.walls)
+            walls_draw(frame, &plain_view, raster);
+        (void)plain_ordered(frame, draw_leaf, &drawing);
+    }
+    for (int32_t y = 0; y < height; y++)
+        pixels_show(raster, y, colour_sky(frame, y));
 }
 
 /* --- Views ------------------------------------------------------------------------------------ */

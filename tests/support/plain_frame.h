@@ -13,8 +13,11 @@
  */
 typedef void (*plain_leaf_fn)(void *context, const yb_point_t *const corner[3]);
 
-/* Hands out the leaves of a frame that has begun; returns how many. */
-uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context);
+/* Hands out the leaves of a frame that has begun, ordered for its first row; returns how many. */
+uint32_t plain_leaves(yb_frame_t *frame, plain_leaf_fn fn, void *context);
+
+/* The same, as it is ordered. */
+uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context);
 
 /* Lies a triangle, with all that it may become, behind the eye? With plenty to spare. */
 bool plain_behind(const yb_frame_t *frame, const yb_part_t *part);

@@ -236,7 +236,6 @@ static void any_view_at_all(void **state)
 {
     (void)state;
     rng_t rng = {53};
-    static uint16_t depth[64 * 48];
     static uint8_t pixels[64 * 48 * 2];
     for (int round = 0; round < 20000; round++) {
         plan_t plan;
@@ -256,7 +255,7 @@ static void any_view_at_all(void **state)
                             (uint16_t)rng_range(&rng, 1, 48),
                             rng_one_in(&rng, 2) ? YB_GREY4 : YB_RGB565};
         yb_frame_begin(&frame, &map, &view, &page);
-        yb_band_t band = {0, page.height, depth, pixels, yb_screen_pitch(&page)};
+        yb_band_t band = {0, page.height, pixels, yb_screen_pitch(&page), NULL};
         yb_frame_band(&frame, &band);
     }
 }

@@ -18,8 +18,8 @@ static uint8_t whole[WIDTH * HEIGHT * 2];
 
 static void draw(const yb_view_t *view, const yb_screen_t *screen)
 {
-    static uint16_t cells[WIDTH * HEIGHT];
-    const yb_band_t band = {0, screen->height, cells, whole, yb_screen_pitch(screen)};
+    static uint8_t greys[WIDTH / 2 * HEIGHT];
+    const yb_band_t band = {0, screen->height, whole, yb_screen_pitch(screen), greys};
     yb_frame_begin(&frame, &map, view, screen);
     yb_frame_band(&frame, &band);
 }

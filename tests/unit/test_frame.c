@@ -18,7 +18,7 @@ enum {
 };
 
 static yb_frame_t frame;
-static uint16_t cells[WIDTH * HEIGHT];
+static uint8_t greys[WIDTH / 2 * HEIGHT];
 static uint8_t whole[WIDTH * HEIGHT * 2];
 static uint8_t again[WIDTH * HEIGHT * 2];
 
@@ -39,7 +39,7 @@ static const yb_screen_t *random_scene(rng_t *rng, int round, yb_view_t *view)
 static void draw(uint8_t *pixels, int y, int rows)
 {
     size_t pitch = yb_screen_pitch(&frame.screen);
-    yb_band_t band = {(uint16_t)y, (uint16_t)rows, cells, pixels + (size_t)y * pitch, pitch};
+    yb_band_t band = {(uint16_t)y, (uint16_t)rows, pixels + (size_t)y * pitch, pitch, greys};
     yb_frame_band(&frame, &band);
 }
 
@@ -130,7 +130,7 @@ static void one_piece_of_memory_is_enough(void **state)
         for (size_t i = bytes; i < sizeof piece.byte; i++)
             CHECK(piece.byte[i] == 0xa5, "round %d: byte %zu of %zu was written", round, i, bytes);
         /* Not one row more would have fitted, nor does one in less than is needed for it. */
-        const size_t used = (size_t)((uint8_t *)band.cells - piece.byte);
+        const size_t used = (size_t)(band.pixels - piece.byte);
         assert_true(bytes - used - band.rows * row < row || band.rows == screen->height);
         assert_null(yb_frame_place(&piece.map, used + row - 1, screen, &band));
         assert_non_null(yb_frame_place(&piece.map, used + row, screen, &band));
@@ -162,7 +162,7 @@ static void one_piece_of_memory_is_enough(void **state)
     yb_band_t band;
     const yb_screen_t screen = {128, 64, YB_GREY4};
     const size_t promised = sizeof(yb_map_t) + sizeof(yb_frame_t) + 2 * sizeof(void *);
-    assert_non_null(yb_frame_place(&piece.map, promised + 256, &screen, &band));
+    assert_non_null(yb_frame_place(&piece.map, promised + 64, &screen, &band));
     assert_true(band.rows == 1);
     const yb_screen_t none = {0, 0, YB_GREY4};
     assert_null(yb_frame_place(&piece.map, sizeof piece, &none, &band));
@@ -178,7 +178,7 @@ static void a_band_leaves_the_rest_alone(void **state)
     yb_frame_begin(&frame, &map, &view, &screen);
     memset(again, 0xa5, sizeof again);
     /* Eight rows asked for from row 36: four of them are below the screen. */
-    yb_band_t band = {36, 8, cells, again, 40};
+    yb_band_t band = {36, 8, again, 40, NULL};
     yb_frame_band(&frame, &band);
     for (size_t i = 0; i < sizeof again; i++)
         assert_true(again[i] == 0xa5 || (i / 40 < 4 && i % 40 < 32));
@@ -202,7 +202,7 @@ static void culling_changes_no_pixel(void **state)
             view.edge_q4 = 96;
         yb_frame_begin(&frame, &map, &view, screen);
         draw(whole, 0, screen->height);
-        yb_band_t band = {0, screen->height, cells, again, yb_screen_pitch(screen)};
+        yb_band_t band = {0, screen->height, again, yb_screen_pitch(screen), greys};
         plain_frame(&frame, &band);
         CHECK(memcmp(whole, again, yb_screen_pitch(screen) * screen->height) == 0,
               "view %d differs from the plain drawing", round);
@@ -298,7 +298,7 @@ static void leaves_keep_to_their_bound(void **state)
         assert_memory_equal(whole, again, yb_screen_pitch(screen) * screen->height);
         if (view.edge_q4 == 1)
             continue; /* what is out of sight would be refined to the lattice */
-        yb_band_t band = {0, screen->height, cells, again, yb_screen_pitch(screen)};
+        yb_band_t band = {0, screen->height, again, yb_screen_pitch(screen), greys};
         plain_frame(&frame, &band);
         assert_memory_equal(whole, again, yb_screen_pitch(screen) * screen->height);
     }
@@ -339,7 +339,7 @@ static void slivers_become_few(void **state)
         const yb_screen_t screen = {128, 64, YB_GREY4};
         yb_frame_begin(&frame, &map, &view, &screen);
         draw(whole, 0, screen.height);
-        yb_band_t band = {0, screen.height, cells, again, yb_screen_pitch(&screen)};
+        yb_band_t band = {0, screen.height, again, yb_screen_pitch(&screen), greys};
         plain_frame(&frame, &band);
         assert_memory_equal(whole, again, yb_screen_pitch(&screen) * screen.height);
         (void)plain_leaves(&frame, count_western, &few);

@@ -30,7 +30,7 @@
  *
  *     static yb_map_t map;
  *     static union { yb_load_t load; yb_frame_t frame; } work;
- *     static uint16_t cells[128 * 8];
+ *     static uint8_t pixels[64 * 8];
  *
  *     if (yb_map_load(&map, &work.load, code, code_bytes) != YB_OK)
  *         return;
@@ -39,10 +39,10 @@
  *     yb_view_init(&view, &map);
  *     yb_view_orbit(&view, &map, YB_DEGREES(45), YB_DEGREES(30), 307);
  *     yb_frame_begin(&work.frame, &map, &view, &screen);
- *     yb_band_t band = {.rows = 8, .cells = cells, .pixels = (uint8_t *)cells, .pitch = 64};
+ *     yb_band_t band = {.rows = 8, .pixels = pixels, .pitch = 64};
  *     for (band.y = 0; band.y < 64; band.y = (uint16_t)(band.y + 8)) {
  *         yb_frame_band(&work.frame, &band);
- *         send_to_panel(band.y, band.pixels);
+ *         send_to_panel(band.y, pixels);
  *     }
  */
 #ifndef YAMABIKO_YAMABIKO_H
