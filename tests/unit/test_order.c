@@ -5,12 +5,13 @@
 
 #include "camera.h"
 #include "clip.h"
-#include "loaded_map.h"
 #include "mesh.h"
 #include "order.h"
 #include "pixels.h"
 #include "plain_frame.h"
 #include "raster.h"
+
+#include "loaded_map.h" /* after mesh.h, whose arguments have the name of its load */
 
 enum {
     WIDTH = 96,
@@ -62,7 +63,7 @@ static double depth_at(const leaf_t *leaf, int x, int y, bool *met)
     const double b = determinant(leaf->p[0], ray, leaf->p[2]);
     const double c = determinant(leaf->p[0], leaf->p[1], ray);
     *met = volume > 0 && a >= 0 && b >= 0 && c >= 0;
-    return volume > 0 && a + b + c > 0 ? volume / (a + b + c) * frame.focal_q4 : INFINITY;
+    return volume > 0 && a + b + c > 0 ? volume / (a + b + c) * frame.focal_q4 : (double)INFINITY;
 }
 
 /* --- Frames ----------------------------------------------------------------------------------- */
@@ -120,13 +121,13 @@ static void check_rows(const raster_t *raster, sum_t *sum)
 {
     static double nearest[WIDTH * HEIGHT];
     for (int i = 0; i < WIDTH * HEIGHT; i++)
-        nearest[i] = INFINITY;
+        nearest[i] = (double)INFINITY;
     find_nearest(raster, nearest);
     for (int y = raster->first_row; y < raster->end_row; y++) {
         for (int x = 0; x < WIDTH; x++) {
             const uint8_t *pixel = &pixels[(y * WIDTH + x) * 2];
             const int number = pixel[0] << 8 | pixel[1];
-            if (number == 0 || nearest[y * WIDTH + x] == INFINITY)
+            if (number == 0 || nearest[y * WIDTH + x] == (double)INFINITY)
                 continue;
             bool met;
             const double depth = depth_at(&leaves[number - 1], x, y, &met);
@@ -247,7 +248,7 @@ static void circles_are_seen_in_two_parts(void **state)
     print_message("%d pixels, %d show what is hidden; %d frames in two orders\n", sum.pixels,
                   sum.wrong, sum.circles);
     assert_true(sum.pixels > 300000 && sum.circles > 50);
-    assert_true(sum.wrong < sum.pixels / 4000);
+    assert_true(sum.wrong < sum.pixels / 50000);
 }
 
 /* --- Base triangles --------------------------------------------------------------------------- */
