@@ -175,7 +175,7 @@ static normal_t raised(const yb_frame_t *frame, normal_t n)
     return to_13_bits(n.x * scale, n.y * scale, (uint32_t)n.z << 8 | 1);
 }
 
-static int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, normal_t n)
+static inline int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, normal_t n)
 {
     return frame->view.lamp ? lamp_light(frame, at, n) : sun_light(frame, n);
 }
@@ -224,9 +224,13 @@ APART static shade_t coloured(const yb_frame_t *frame, const yb_point_t *const c
                               int32_t shade, int32_t light)
 {
     const int32_t near = frame->haze_near == 0 ? 0 : nearest_of(corner);
-    /* A third: 5461 / 2^14. */
-    int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
-    return (shade_t){colour_pixel(frame, hue_of(frame, middle), shade, near), (uint16_t)light};
+    int hue = 0;
+    if (frame->screen.format == YB_RGB565) {
+        /* A third: 5461 / 2^14. */
+        int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
+        hue = hue_of(frame, middle);
+    }
+    return (shade_t){colour_pixel(frame, hue, shade, near), (uint16_t)light};
 }
 
 /* What a triangle looks like where there is more to it than the sun's light, by its normal: x in
