@@ -12,171 +12,172 @@ enum {
     WATER_DIM = 4 /* and water, where there is no colour to tell it by */
 };
 
-/* round(2^31 / sqrt(i 2^26)) - 1 for i from 16 to 64 */
-static const uint16_t root_table[49] YB_ROM = {
-    65535, 63578, 61787, 60139, 58616, 57204, 55888, 54660, 53509, 52428, 51410, 50449, 49540,
-    48678, 47860, 47081, 46340, 45632, 44956, 44309, 43690, 43095, 42524, 41976, 41448, 40939,
-    40449, 39976, 39519, 39077, 38650, 38237, 37836, 37448, 37072, 36707, 36352, 36007, 35672,
-    35346, 35029, 34721, 34420, 34127, 33842, 33563, 33291, 33026, 32767};
-
-/* 2^31 / sqrt(a) for 2^30 <= a < 2^32, within a thousandth: above 2^15, at most 2^16. */
-static uint32_t reciprocal_root(uint32_t a)
-{
-    uint32_t i = a >> 26;
-    uint32_t root = yb_rom_u16(&root_table[i - 16]);
-    uint32_t step = root - yb_rom_u16(&root_table[i - 15]);
-    return root + 1 - (step * (a >> 18 & 255) >> 8);
-}
+/* What most triangles are, and what few of them need: some compilers lay out code by it. */
+#if defined(__GNUC__)
+#define USUAL(condition) __builtin_expect((condition), 1)
+#define APART __attribute__((noinline))
+#else
+#define USUAL(condition) (condition)
+#define APART
+#endif
 
 /* A direction. */
 typedef struct {
     int32_t x, y, z;
 } normal_t;
 
-/* The size of a number below 2^30, but that a negative one counts as one less: one instruction. */
+/* The square of the least cosine that has this shade, 12 fractional bits: shades grow by a 14th of
+ * the cosine and are rounded down, but for a quarter that is added, so that level ground and water
+ * below a sun 30 degrees high, a half on the dot, have one shade whatever triangles they are made
+ * of.
+ */
+#define LEAST(shade)                                                                               \
+    (uint16_t)((((int32_t)1 << 12) * (4 * (shade)-9) * (4 * (shade)-9) + 28 * 56) / (56 * 56))
+
+/* As a tree: below entry i lie the ones at 2i and, for what is less, 2i + 1. Nothing is less than
+ * the darkest.
+ */
+static const uint16_t least_squares[SHADES] YB_ROM = {
+    0,         LEAST(8),  LEAST(12), LEAST(4), LEAST(14), LEAST(10), LEAST(6), 0,
+    LEAST(15), LEAST(13), LEAST(11), LEAST(9), LEAST(7),  LEAST(5),  LEAST(3), 0};
+
+static inline uint32_t below(uint32_t i, uint32_t square, uint32_t whole_q12)
+{
+    /* The sign of a difference between numbers below 2^31 asks without a branch. */
+    return 2 * i + ((square - whole_q12 * yb_rom_u16(&least_squares[i])) >> 31);
+}
+
+/* The shade by the square of a cosine, which is that of a number of 15 bits over 2^12 times another
+ * one of 18 bits. Entries are below 2^12: products are below 2^30.
+ */
+static inline int32_t shade_from(uint32_t number, uint32_t whole_q12)
+{
+    const uint32_t square = number * number;
+    uint32_t i = below(1, square, whole_q12);
+    i = below(i, square, whole_q12);
+    i = below(i, square, whole_q12);
+    i = below(i, square, whole_q12);
+    return (int32_t)(~i & (SHADES - 1));
+}
+
+/* The size of a number, but that a negative one counts as one less: one instruction. */
 static inline uint32_t size_of(int32_t a)
 {
-    return (uint32_t)(a ^ a >> 30);
+    return (uint32_t)(a ^ a >> 31);
 }
 
-/* Brings the greatest of three numbers to 13 bits. */
-static inline void to_13_bits(normal_t *n)
-{
-    uint32_t all = size_of(n->x) | size_of(n->y) | size_of(n->z);
-    int shift = fix_log2_floor(all | 1) - 12;
-    if (shift >= 0) {
-        n->x >>= shift;
-        n->y >>= shift;
-        n->z >>= shift;
-    } else {
-        n->x *= 1 << -shift;
-        n->y *= 1 << -shift;
-        n->z *= 1 << -shift;
-    }
-}
-
-/* 2^31 over the length of a direction that is not zero, times the power of two that brings it to 16
- * bits: 2^*more. Components of up to 15 bits: three squares are below 2^32.
+/* Brings the greatest of three numbers below 2^31 to 13 bits. The third, which has 32, is above 0.
  */
-static inline uint32_t reciprocal_length(const normal_t *n, int *more)
+static inline normal_t to_13_bits(int32_t x, int32_t y, uint32_t z)
 {
-    uint32_t square = (uint32_t)(n->x * n->x) + (uint32_t)(n->y * n->y) + (uint32_t)(n->z * n->z);
-    *more = (31 - fix_log2_floor(square)) >> 1;
-    return reciprocal_root(square << 2 * *more);
+    const int shift = fix_log2_floor(size_of(x) | size_of(y) | z) - 12;
+    if (USUAL(shift >= 0))
+        return (normal_t){x >> shift, y >> shift, (int32_t)(z >> shift)};
+    return (normal_t){x * (1 << -shift), y * (1 << -shift), (int32_t)(z << -shift)};
 }
 
-/* The shade of a surface by the cosine between its outward normal, of up to 15 bits, and a unit
- * vector of 14 bits to the light (Lambert). The dot product is within 3 * 2^29.
+/* The square of a direction's length. Components of up to 15 bits: three squares are below 2^32. */
+static inline uint32_t square_of(normal_t n)
+{
+    return (uint32_t)(n.x * n.x) + (uint32_t)(n.y * n.y) + (uint32_t)(n.z * n.z);
+}
+
+/* The light of the sun, a unit vector of 14 bits, on a surface with this outward normal, of 12 to
+ * 15 bits (Lambert). The dot product is within 3 * 2^29, and a 2^14th of it no more than the
+ * normal's length, below 2^16.
  */
-static inline int32_t lambert(const normal_t *n, const int16_t light[3])
+static inline int32_t sun_light(const yb_frame_t *frame, normal_t n)
 {
-    int32_t dot = n->x * light[0] + n->y * light[1] + n->z * light[2];
-    if (dot <= 0)
-        return DARKEST;
-    int more = 0;
-    uint32_t root = reciprocal_length(n, &more);
-    /* The cosine times 2^31, for a unit vector to the sun: any other is cut. */
-    uint32_t along = (uint32_t)dot >> 14 << more;
-    along = along < 65535 ? along : 65535;
-    uint32_t cosine_q12 = along * root >> 19;
-    /* Rounded up a little, so that level ground and water below a sun 30 degrees high, a half on
-     * the dot, have one shade whatever triangles they are made of. */
-    uint32_t shade = (cosine_q12 * (SHADES - DARKEST) + 1024) >> 12;
-    return fix_min(DARKEST + (int32_t)shade, SHADES - 1);
+    const int16_t *sun = frame->view.sun_q14;
+    int32_t dot = n.x * sun[0] + n.y * sun[1] + n.z * sun[2];
+    return dot <= 0 ? DARKEST : shade_from((uint32_t)dot >> 15, square_of(n) >> 14);
 }
 
-/* Towards the lamp. */
-static void find_lamp(const yb_frame_t *frame, const yb_point_t *at, int32_t raised_q8,
-                      int16_t light[3])
+/* A number of 32 bits times so many powers of four is above 2^30. */
+static inline int room_above(uint32_t square)
+{
+    return (31 - fix_log2_floor(square)) >> 1;
+}
+
+/* The light of the lamp at a point, which may stand for a small triangle. */
+static int32_t lamp_light(const yb_frame_t *frame, const yb_point_t *at, normal_t n)
 {
     const int32_t *lamp = frame->view.lamp_q8;
-    normal_t to_lamp = {lamp[0] - (int32_t)(at->place & 0xffff),
-                        lamp[1] - (int32_t)(at->place >> 16), lamp[2] - raised_q8};
-    to_13_bits(&to_lamp);
-    to_lamp.z |= to_lamp.x == 0 && to_lamp.y == 0 ? 1 : 0; /* at the lamp itself: from above */
-    int more = 0;
-    int32_t root = (int32_t)(reciprocal_length(&to_lamp, &more) >> 1);
-    light[0] = (int16_t)(to_lamp.x * root >> (16 - more));
-    light[1] = (int16_t)(to_lamp.y * root >> (16 - more));
-    light[2] = (int16_t)(to_lamp.z * root >> (16 - more));
+    int32_t x = lamp[0] - (int32_t)(at->place & 0xffff);
+    int32_t y = lamp[1] - (int32_t)(at->place >> 16);
+    int32_t z = lamp[2] - ((at->top_q8 * (frame->view.exaggerate_q8 >> 3)) >> 5);
+    normal_t way = to_13_bits(x, y, size_of(z) | 1); /* at the lamp itself: from above */
+    way.z = z < 0 ? -way.z : way.z;
+    int32_t dot = n.x * way.x + n.y * way.y + n.z * way.z; /* within 3 * 2^28 */
+    if (dot <= 0)
+        return DARKEST;
+    uint32_t square = square_of(n);
+    uint32_t way_square = square_of(way);
+    int more = room_above(square);
+    int way_more = room_above(way_square);
+    /* No more than the lengths' product, below 2^32. */
+    uint32_t along = (uint32_t)dot << (more + way_more);
+    uint32_t whole = (square << 2 * more >> 16) * (way_square << 2 * way_more >> 16);
+    return shade_from(along >> 17, whole >> 14);
 }
 
-/* A height, or a slope, as the view's scale raises it: below 2^20 * 2^8. */
-static inline int32_t raised(const yb_frame_t *frame, int32_t height)
-{
-    int32_t scale = frame->view.exaggerate_q8;
-    return scale == 256 ? height : (height * (scale >> 3)) >> 5;
-}
-
-/* A triangle's upward normal, from differences of at most 14 bits: a product of two has 28. */
-static inline void find_normal(const yb_frame_t *frame, const yb_point_t *const p[3],
-                               normal_t *normal)
+/* A triangle's upward normal, where the vertical scale is true.
+ *
+ * Twice the plan area is above 0 and below 2^32, whatever its products are. With plan differences
+ * below 2^16 and rises within 2^14, the other products are below 2^30.
+ */
+static inline normal_t normal_of(const yb_point_t *const p[3])
 {
     int32_t x1 = relief_dx(p[0]->place, p[1]->place);
     int32_t y1 = relief_dy(p[0]->place, p[1]->place);
     int32_t x2 = relief_dx(p[0]->place, p[2]->place);
     int32_t y2 = relief_dy(p[0]->place, p[2]->place);
-    int32_t z1 = raised(frame, p[1]->top_q8 - p[0]->top_q8);
-    int32_t z2 = raised(frame, p[2]->top_q8 - p[0]->top_q8);
-    const int32_t most = (int32_t)1 << 14;
-    while ((uint32_t)((x1 + most) | (y1 + most) | (x2 + most) | (y2 + most) | (z1 + most) |
-                      (z2 + most)) >= (uint32_t)1 << 15) {
-        x1 >>= 1;
-        y1 >>= 1;
-        z1 >>= 1;
-        x2 >>= 1;
-        y2 >>= 1;
-        z2 >>= 1;
+    uint32_t area = (uint32_t)x1 * (uint32_t)y2 - (uint32_t)y1 * (uint32_t)x2;
+    int32_t z1 = p[1]->top_q8 - p[0]->top_q8;
+    int32_t z2 = p[2]->top_q8 - p[0]->top_q8;
+    const uint32_t rise = size_of(z1) | size_of(z2);
+    if (!USUAL(rise < (uint32_t)1 << 14)) {
+        const int shift = fix_log2_floor(rise) - 13;
+        z1 >>= shift;
+        z2 >>= shift;
+        area = area >> shift | 1;
     }
-    *normal = (normal_t){y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2};
-    to_13_bits(normal);
+    return to_13_bits(y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, area);
+}
+
+/* The sums of the slopes at a triangle's corners, within 3 * 2^13: east, signed, in the lower half,
+ * and north in the upper one, which is one less where east is negative.
+ */
+static inline uint32_t slopes_of(const yb_point_t *const p[3])
+{
+    return p[0]->slope + p[1]->slope + p[2]->slope - 3 * (uint32_t)0x8000 -
+           3 * ((uint32_t)0x8000 << 16);
 }
 
 /* Turns a triangle's normal towards that of the smooth surface, which the slopes at its corners
  * tell, by three parts of seven: the facets of a coarse mesh vanish, the fractal detail stays.
  */
-static inline void smooth_normal(const yb_frame_t *frame, const yb_point_t *const p[3],
-                                 normal_t *normal)
+static inline void smooth_normal(uint32_t slopes, normal_t *n)
 {
-    /* Three quarters of the mean slope, east in the lower half and north in the upper one: sums of
-     * three have 16 bits, with 3 * 2^13 added. */
-    uint32_t sum = (p[0]->slope >> 2 & 0x3fff3fff) + (p[1]->slope >> 2 & 0x3fff3fff) +
-                   (p[2]->slope >> 2 & 0x3fff3fff);
-    int32_t east = raised(frame, (int32_t)(sum & 0xffff) - 3 * 8192);
-    int32_t north = raised(frame, (int32_t)(sum >> 16) - 3 * 8192);
-    /* Below 2^13 * 2^13, raised by up to 2^3. */
-    normal->x -= normal->z * east >> 11;
-    normal->y -= normal->z * north >> 11;
-    normal->z += 3 * normal->z >> 2;
-    if (frame->view.exaggerate_q8 > 256) /* else they are at most 2^13 + 3 * 2^13 */
-        to_13_bits(normal);
+    int32_t east = (int16_t)(slopes & 0xffff);
+    int32_t north = (int32_t)slopes >> 16;
+    /* Three quarters of the mean: products are below 2^13 * 3 * 2^13, what is added to 13 bits is
+     * below 3 * 2^13. */
+    n->x -= n->z * east >> 13;
+    n->y -= n->z * north >> 13;
+    n->z += 3 * n->z >> 2;
 }
 
-/* The shade of a surface at a point, which may stand for a small triangle. */
-static int32_t lit(const yb_frame_t *frame, const yb_point_t *at, const normal_t *normal)
+/* Of ground with another vertical scale: up to 2^11, times components of 15 bits. */
+static normal_t raised(const yb_frame_t *frame, normal_t n)
 {
-    if (!frame->view.lamp)
-        return lambert(normal, frame->view.sun_q14);
-    int16_t light[3];
-    find_lamp(frame, at, raised(frame, at->top_q8), light);
-    return lambert(normal, light);
+    int32_t scale = frame->view.exaggerate_q8;
+    return to_13_bits(n.x * scale, n.y * scale, (uint32_t)n.z << 8 | 1);
 }
 
-/* Has a triangle no corner in the water? */
-static inline bool all_dry(const yb_frame_t *frame, const yb_point_t *const p[3])
+static inline int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, normal_t n)
 {
-    int32_t water = frame->view.water_q8;
-    return water == YB_NO_WATER || (p[0]->z_q8 > water && p[1]->z_q8 > water && p[2]->z_q8 > water);
-}
-
-/* The shade of a triangle of the ground, of the water, or between them. */
-static int32_t shade_of(const yb_frame_t *frame, const yb_point_t *const p[3])
-{
-    normal_t normal;
-    find_normal(frame, p, &normal);
-    if (frame->map->smooth && all_dry(frame, p))
-        smooth_normal(frame, p, &normal);
-    return frame->view.lamp ? lit(frame, p[0], &normal) : lambert(&normal, frame->view.sun_q14);
+    return frame->view.lamp ? lamp_light(frame, at, n) : sun_light(frame, n);
 }
 
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
@@ -218,29 +219,57 @@ static int hue_of(const yb_frame_t *frame, int32_t z_q8)
     return (int)fix_min((int32_t)(((uint32_t)above * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
 }
 
-/* The pixel value of a triangle that has this much light, but for shadows. */
-static inline uint16_t pixel_of(const yb_frame_t *frame, const yb_point_t *const corner[3],
-                                int32_t light)
+/* What a triangle of the ground looks like that has this shade where there are colours or haze. */
+APART static shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3],
+                              int32_t shade, int32_t light)
 {
-    int32_t shade = shadowed(frame, corner, light);
-    int32_t water = frame->view.water_q8;
-    bool drowned = corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water;
-    if (colour_is_shade(frame) && !drowned)
-        return (uint16_t)shade;
-    int32_t near = nearest_of(corner);
-    if (drowned)
-        return water_pixel(frame, shade, near);
-    if (frame->screen.format != YB_RGB565)
-        return colour_pixel(frame, 0, shade, near);
-    /* A third: 5461 / 2^14. */
-    int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
-    return colour_pixel(frame, hue_of(frame, middle), shade, near);
+    const int32_t near = frame->haze_near == 0 ? 0 : nearest_of(corner);
+    int hue = 0;
+    if (frame->screen.format == YB_RGB565) {
+        /* A third: 5461 / 2^14. */
+        int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
+        hue = hue_of(frame, middle);
+    }
+    return (shade_t){colour_pixel(frame, hue, shade, near), (uint16_t)light};
+}
+
+/* What a triangle looks like where there is more to it than the sun's light, by its normal: x in
+ * the lower half and y in the upper one, and z.
+ */
+APART static shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3],
+                             uint32_t normal_xy, int32_t normal_z)
+{
+    normal_t normal = {(int16_t)(normal_xy & 0xffff), (int32_t)normal_xy >> 16, normal_z};
+    const int32_t water = frame->view.water_q8;
+    const bool dry = corner[0]->z_q8 > water && corner[1]->z_q8 > water && corner[2]->z_q8 > water;
+    if (dry && frame->map->smooth)
+        smooth_normal(slopes_of(corner), &normal);
+    if (frame->view.exaggerate_q8 != 256)
+        normal = raised(frame, normal);
+    const int32_t light = light_on(frame, corner[0], normal);
+    const int32_t shade = shadowed(frame, corner, light);
+    if (corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water)
+        return (shade_t){water_pixel(frame, shade, nearest_of(corner)), (uint16_t)light};
+    if (colour_is_shade(frame))
+        return (shade_t){(uint16_t)shade, (uint16_t)light};
+    return coloured(frame, corner, shade, light);
 }
 
 shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
-    const int32_t light = shade_of(frame, corner);
-    return (shade_t){pixel_of(frame, corner, light), (uint16_t)light};
+    const uint32_t slopes = slopes_of(corner);
+    normal_t normal = normal_of(corner);
+    /* Most often the sun's light is all: no lamp, shadow, haze or water. */
+    if (!USUAL(frame->even_water && frame->view.water_q8 == YB_NO_WATER &&
+               frame->view.exaggerate_q8 == 256))
+        return look_of(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
+                       normal.z);
+    if (USUAL(frame->map->smooth))
+        smooth_normal(slopes, &normal);
+    const int32_t light = sun_light(frame, normal);
+    if (!USUAL(frame->screen.format != YB_RGB565))
+        return coloured(frame, corner, light, light);
+    return (shade_t){(uint16_t)light, (uint16_t)light};
 }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
@@ -275,7 +304,7 @@ static bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uin
 {
     static const normal_t level = {0, 0, 1 << 12};
     const int32_t near = nearest_of(p);
-    const int32_t flat = shadowed(frame, p, lit(frame, p[0], &level));
+    const int32_t flat = shadowed(frame, p, light_on(frame, p[0], level));
     cut->interval = 0;
     cut->zero = (int32_t)1 << 15;
     cut->below = water_pixel(frame, flat, near);
@@ -319,9 +348,8 @@ uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point
     /* Outward: to the right of the edge. */
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
-    normal_t outward = {dy, -dx, 0};
-    to_13_bits(&outward);
-    int32_t shade = fix_max(lit(frame, a, &outward) - WALL_DIM, DARKEST);
+    normal_t outward = to_13_bits(dy * 4096, -dx * 4096, 1); /* of 17 bits */
+    int32_t shade = fix_max(light_on(frame, a, outward) - WALL_DIM, DARKEST);
     int32_t near = fix_max(a->spot.near, b->spot.near);
     int32_t water = frame->view.water_q8;
     if (a->z_q8 <= water && b->z_q8 <= water)

@@ -6,9 +6,12 @@
 
 #include "raster.h"
 
-/* What a triangle looks like: its pixel value, and its shade without cast shadows. */
+/* What a triangle looks like: its pixel value, and its shade without cast shadows. Aligned as a
+ * number, it is handed on as one.
+ */
 typedef struct {
-    uint16_t pixel, light;
+    _Alignas(uint32_t) uint16_t pixel;
+    uint16_t light;
 } shade_t;
 
 /* Of a triangle of the ground (or of the water, where all three corners are in it). */
