@@ -58,6 +58,9 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
 /* a * b, all 64 bits. */
 int64_t fix_wide(int32_t a, int32_t b);
 
+/* sum + a * b: what is added up one by one stays in the registers that it is handed on in. */
+int64_t fix_add(int64_t sum, int32_t a, int32_t b);
+
 /* The low 32 bits of a * b >> shift, 0 <= shift < 63, rounded down. */
 int32_t fix_product(int32_t a, int32_t b, int shift);
 
