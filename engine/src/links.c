@@ -225,9 +225,9 @@ static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
     return line->open || (line->left == load->here) == turns_left(load, line);
 }
 
-static bool apply_rules(yb_load_t *load)
+/* All rules of a region, of which this is the first line. */
+static bool apply_rules(yb_load_t *load, const yb_contour_t *line)
 {
-    const yb_contour_t *line = line_after(load, NULL);
     if (line_after(load, line) == NULL) {
         fan(load, line);
         return true;
@@ -245,23 +245,14 @@ static bool apply_rules(yb_load_t *load)
     return true;
 }
 
-/* Does an earlier line, or the left side of this one, bound the region too? */
-static bool seen_before(const yb_load_t *load, int side)
-{
-    for (int k = 0; k < side; k++) {
-        if (is_line(&load->contour[k >> 1]) && region_beside(load, k) == load->here)
-            return true;
-    }
-    return false;
-}
-
 bool links_add(yb_load_t *load)
 {
     load->first_saddle = load->map->vertex_count;
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
         load->here = region_beside(load, side);
-        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) && !apply_rules(load))
+        const yb_contour_t *line = line_after(load, NULL);
+        if (line == &load->contour[side >> 1] && !apply_rules(load, line))
             return false;
     }
     mesh_make_delaunay(load);
