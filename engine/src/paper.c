@@ -87,15 +87,12 @@ static yb_status_t take_header(yb_load_t *load, uint32_t field)
 static yb_status_t take_frame_height(yb_load_t *load, uint32_t coded)
 {
     uint32_t corners = load->flags >> 4; /* SW SE NE NW from bit 3 down */
-    int32_t height = (int32_t)coded;
-    if (!settle_height(load->map, 0, &height))
-        return YB_ERR_CORRUPT;
     if (corners == 0) {
-        load->frame_height = height;
+        load->frame_height = (int32_t)coded;
     } else {
         while ((corners & 8u >> load->at) == 0)
             load->at++;
-        load->corner_height[load->at++] = height;
+        load->corner_height[load->at++] = (int32_t)coded;
         if ((corners << load->at & 15) != 0)
             return YB_MORE;
     }
@@ -125,7 +122,7 @@ static yb_status_t end_body(yb_load_t *load)
     if ((load->bits & ((1u << load->bits_held) - 1)) != 0)
         return YB_ERR_CORRUPT;
     load->state = END;
-    return YB_OK;
+    return settle_heights(load, 0);
 }
 
 static yb_status_t take_dimension(yb_load_t *load, uint32_t d)
@@ -138,15 +135,9 @@ static yb_status_t take_dimension(yb_load_t *load, uint32_t d)
 /* A point has come: it lies in the frame or the code is corrupt. */
 static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 {
-    /* As unsigned numbers, what is below zero is far beyond the other sides. */
-    if ((uint32_t)x > load->map->east_q8 >> 8 || (uint32_t)y > load->map->north_q8 >> 8)
-        return YB_ERR_CORRUPT;
     const yb_contour_t *contour = &load->contour[load->at];
-    yb_vertex_t *point = &load->vertex[load->map->vertex_count];
-    point->x_q8 = (uint16_t)(x << 8);
-    point->y_q8 = (uint16_t)(y << 8);
-    point->z_q8 = load->vertex[contour->first].z_q8;
-    load->map->vertex_count++;
+    if (!add_point(load, x, y, load->vertex[contour->first].z_q8))
+        return YB_ERR_CORRUPT;
     load->state = STEP;
     if (load->map->vertex_count < contour->first + contour->count)
         return YB_MORE;
@@ -157,10 +148,9 @@ static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 
 static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 {
-    int32_t *height = &load->vertex[load->map->vertex_count].z_q8;
-    *height = (int32_t)coded;
+    load->vertex[load->map->vertex_count].z_q8 = (int32_t)coded;
     load->state = START;
-    return settle_height(load->map, 0, height) ? YB_MORE : YB_ERR_CORRUPT;
+    return YB_MORE;
 }
 
 /* Six bits as a signed number, times the coded shift. */
