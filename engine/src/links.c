@@ -89,7 +89,7 @@ static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_conto
         if (line != NULL) {
             const yb_contour_t *before = line_before(load, spot);
             int32_t way = before == NULL ? 0 : height_of(load, before) - z;
-            if (before == line || way == 0 || up == 0 || up == way || (way > 0) != (up > way))
+            if (before == line || way == 0 || up == way || (way ^ (up - way)) < 0)
                 continue;
         }
         int32_t along = edge_length(load, p, spot->first);
