@@ -212,7 +212,7 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
 /* A way on the screen, over a 1/depth that is up to an eighth nearer than it was: 8/7; with 20
  * fractional bits, rounded up. 34 bits and 20 more, less the 31 of `least`.
  */
-static uint32_t sway_of(uint64_t way, uint32_t least)
+APART uint32_t sway_of(uint64_t way, uint32_t least)
 {
     return (uint32_t)(((way * 8 / 7 << 20) + least - 1) / least);
 }

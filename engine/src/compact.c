@@ -258,7 +258,7 @@ static int take_header(yb_load_t *load, int value)
 /* Until the relief is complete a vertex's z is in units above the base; cut, so that sums of
  * however many differences below 2^18 fit.
  */
-static bool add_here(yb_load_t *load, int32_t units)
+APART bool add_here(yb_load_t *load, int32_t units)
 {
     return add_point(load, (int32_t)load->x * load->spacing, (int32_t)load->y * load->spacing,
                      fix_clamp(units, -MOST_UNITS, MOST_UNITS));
@@ -325,7 +325,7 @@ static int next_step(yb_load_t *load)
 }
 
 /* A number that may be negative: 0, -1, 1, -2, 2 … */
-static int signed_of(int value)
+APART int signed_of(int value)
 {
     return value >> 1 ^ -(value & 1);
 }

@@ -12,6 +12,15 @@
 /* `>>` of a negative number rounds down on every compiler we know; C11 leaves it to them. */
 _Static_assert((-3 >> 1) == -2, "arithmetic right shift");
 
+/* A function that stays one: inlined, it would take registers from what its callers keep in them,
+ * and small processors have few.
+ */
+#ifdef __GNUC__
+#define APART static __attribute__((noinline))
+#else
+#define APART static
+#endif
+
 static inline int32_t fix_abs(int32_t a)
 {
     return a < 0 ? -a : a;

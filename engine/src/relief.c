@@ -45,7 +45,7 @@ typedef struct {
     int32_t dx, dy, bulge;
 } edge_t;
 
-static edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
+APART edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
 {
     int32_t dx = fix_minus(b->x_q8, a->x_q8);
     int32_t dy = fix_minus(b->y_q8, a->y_q8);
@@ -109,7 +109,7 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
  * in 1/64 step, 2 bits; 9 more make 2^58 in all. Counted from the steepest one downwards, so that
  * the division rounds down, like everything. 0 where it is flat all round.
  */
-static int32_t slope_q11(int64_t sum, uint32_t sum_z)
+APART int32_t slope_q11(int64_t sum, uint32_t sum_z)
 {
     const int32_t most = YB_MAX_SLOPE_Q11;
     int64_t above = ((int64_t)sum_z * 16 - sum) * 512;

@@ -32,14 +32,14 @@ static bool is_bridge(const yb_load_t *load, const bridge_t *bridge)
 static bool split_bridge(yb_load_t *load, const bridge_t *bridge)
 {
     yb_vertex_t middle;
-    yb_index_t m = (yb_index_t)load->map->vertex_count;
+    int m = load->map->vertex_count;
     yb_branch_t *branch = &load->branch[m];
     find_middle(load, bridge->half, &middle);
     if (!mesh_insert(load, bridge->half, &middle))
         return false;
     branch->parent = (yb_index_t)bridge->parent;
     branch->other = (yb_index_t)bridge->other;
-    branch->end = m;
+    branch->end = (yb_index_t)m;
     branch->grown = false;
     return true;
 }

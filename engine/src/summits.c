@@ -175,7 +175,7 @@ static spot_t widest_place(const yb_load_t *load, int region)
 static bool add_summit(yb_load_t *load, int region, const spot_t *spot, int32_t z)
 {
     half_t e = spot->half;
-    yb_index_t p = (yb_index_t)load->map->vertex_count;
+    int p = load->map->vertex_count;
     yb_vertex_t summit;
     find_middle(load, e, &summit);
     summit.z_q8 = z;
@@ -187,7 +187,7 @@ static bool add_summit(yb_load_t *load, int region, const spot_t *spot, int32_t 
         return false;
     mesh_legalise(load, p);
     yb_contour_t *contour = &load->contour[load->contour_count + load->summit_count++];
-    contour->first = p;
+    contour->first = (yb_index_t)p;
     contour->count = 1;
     contour->left = contour->right = (yb_index_t)region;
     contour->open = false;
