@@ -58,7 +58,7 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
  * is below 2^20 64ths of a metre: 2^59 with the fraction bits. Counted from the lowest height, so
  * that the division rounds down.
  */
-static bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
+bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
 {
     const uint32_t most = 2 * (uint32_t)YB_MAX_HEIGHT_Q8;
     int32_t cell = (int32_t)yb_unit_64th_m(map->cell);
@@ -68,19 +68,6 @@ static bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *he
     uint32_t z_q8 = fix_share((uint64_t)above, 2 * (uint32_t)cell, most + 1);
     *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
     return z_q8 <= most;
-}
-
-yb_status_t settle_heights(yb_load_t *load, uint32_t rest_64th_m)
-{
-    load->point_count = load->map->vertex_count;
-    for (int i = -5; i < load->point_count; i++) {
-        int32_t *height = i == -5 ? &load->frame_height
-                          : i < 0 ? &load->corner_height[i + 4]
-                                  : &load->vertex[i].z_q8;
-        if (*height != UNKNOWN_HEIGHT && !settle_height(load->map, rest_64th_m, height))
-            return YB_ERR_CORRUPT;
-    }
-    return YB_OK;
 }
 
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */

@@ -185,8 +185,8 @@ static int take_vertices(yb_load_t *load, int value)
     if (vertices > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
     load->vertices_promised = (uint16_t)vertices;
-    load->map->east_q8 = (uint16_t)(load->columns * load->spacing << 8);
-    load->map->north_q8 = (uint16_t)(load->rows * load->spacing << 8);
+    load->map->east_q8 = (uint16_t)((uint32_t)(load->columns * load->spacing) << 8);
+    load->map->north_q8 = (uint16_t)((uint32_t)(load->rows * load->spacing) << 8);
     load->start_x = load->columns / 2;
     load->start_y = load->rows / 2;
     return LINE_COUNT;
@@ -283,8 +283,8 @@ static int32_t height_near(const yb_load_t *load)
     int32_t units = 0;
     for (int i = 0; i < load->map->vertex_count; i++) {
         const yb_vertex_t *v = vertex_of(load, i);
-        int32_t dx = (v->x_q8 >> 8) - load->x * load->spacing;
-        int32_t dy = (v->y_q8 >> 8) - load->y * load->spacing;
+        int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
+        int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
         int32_t d = dx * dx + dy * dy;
         if (d < nearest) {
             nearest = d;
@@ -535,7 +535,18 @@ static yb_status_t end_relief(yb_load_t *load)
     uint32_t rest = (uint32_t)base_64th_m & 63;
     map->base_m = (int16_t)((int32_t)((uint32_t)base_64th_m / 64) - 32768);
     map->seed = load->recent >> 8 & 127;
-    return base_64th_m >> 22 != 0 ? YB_ERR_CORRUPT : settle_heights(load, rest);
+    if (base_64th_m >> 22 != 0)
+        return YB_ERR_CORRUPT;
+    load->point_count = map->vertex_count;
+    /* The frame's height, those of its corners that the code has, and the points'. */
+    for (int i = -5; i < load->point_count; i++) {
+        int32_t *height = i == -5 ? &load->frame_height
+                          : i < 0 ? &load->corner_height[i + 4]
+                                  : &load->vertex[i].z_q8;
+        if (*height != UNKNOWN_HEIGHT && !settle_height(map, rest, height))
+            return YB_ERR_CORRUPT;
+    }
+    return YB_OK;
 }
 
 static int take_field(yb_load_t *load)

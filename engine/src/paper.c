@@ -87,12 +87,15 @@ static yb_status_t take_header(yb_load_t *load, uint32_t field)
 static yb_status_t take_frame_height(yb_load_t *load, uint32_t coded)
 {
     uint32_t corners = load->flags >> 4; /* SW SE NE NW from bit 3 down */
+    int32_t height = (int32_t)coded;
+    if (!settle_height(load->map, 0, &height))
+        return YB_ERR_CORRUPT;
     if (corners == 0) {
-        load->frame_height = (int32_t)coded;
+        load->frame_height = height;
     } else {
         while ((corners & 8u >> load->at) == 0)
             load->at++;
-        load->corner_height[load->at++] = (int32_t)coded;
+        load->corner_height[load->at++] = height;
         if ((corners << load->at & 15) != 0)
             return YB_MORE;
     }
@@ -122,7 +125,7 @@ static yb_status_t end_body(yb_load_t *load)
     if ((load->bits & ((1u << load->bits_held) - 1)) != 0)
         return YB_ERR_CORRUPT;
     load->state = END;
-    return settle_heights(load, 0);
+    return YB_OK;
 }
 
 static yb_status_t take_dimension(yb_load_t *load, uint32_t d)
@@ -148,9 +151,10 @@ static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 
 static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 {
-    load->vertex[load->map->vertex_count].z_q8 = (int32_t)coded;
+    int32_t *height = &load->vertex[load->map->vertex_count].z_q8;
+    *height = (int32_t)coded;
     load->state = START;
-    return YB_MORE;
+    return settle_height(load->map, 0, height) ? YB_MORE : YB_ERR_CORRUPT;
 }
 
 /* Six bits as a signed number, times the coded shift. */
