@@ -7,19 +7,17 @@ static bool check_contour(const yb_load_t *load, yb_contour_t *contour)
     const yb_vertex_t *first = vertex_of(load, contour->first);
     const yb_vertex_t *last = first + contour->count - 1;
     yb_vertex_t middle;
+    int on = 0;
+    for (const yb_vertex_t *v = first; v <= last; v++)
+        on += on_frame(load, v);
     contour->open = contour->count > 1 && on_frame(load, first) && on_frame(load, last);
-    if (contour->count == 2) {
-        /* A straight line across: not along one side, where it would bound nothing. */
-        find_middle_of(first, last, &middle);
-        return contour->open && !on_frame(load, &middle);
-    }
-    if (contour->open) {
-        first++;
-        last--;
-    }
-    while (first <= last && !on_frame(load, first))
-        first++;
-    return first > last;
+    if (on != (contour->open ? 2 : 0))
+        return false;
+    if (contour->count != 2)
+        return true;
+    /* A straight line across: not along one side, where it would bound nothing. */
+    find_middle_of(first, last, &middle);
+    return contour->open && !on_frame(load, &middle);
 }
 
 /* Way along the frame, counter-clockwise from the south-west corner, in q8 steps. */
@@ -36,12 +34,14 @@ static uint32_t way_of(const yb_load_t *load, const yb_vertex_t *v)
     return 2 * east + north + (north - v->y_q8);
 }
 
-/* The height at an unknown corner: between the nearest known heights along the frame, both ways. */
+/* The height at a corner: between the nearest known heights along the frame, both ways, of which
+ * its own is one.
+ */
 static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
 {
     uint32_t round = 2 * ((uint32_t)load->map->east_q8 + load->map->north_q8);
     uint32_t way = way_of(load, corner);
-    uint32_t next = round; /* counter-clockwise from the corner, which itself is unknown */
+    uint32_t next = round; /* counter-clockwise from the corner */
     uint32_t last = 0;
     int32_t height_next = 0;
     int32_t height_last = 0;
@@ -60,8 +60,8 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
             height_last = v->z_q8;
         }
     }
-    if (last == 0)
-        return load->frame_height; /* no other is known */
+    if (next == round)
+        return load->frame_height; /* none is known */
     /* Counted from the lowest height, so that the division rounds down. Then heights are at most
      * 2^18, and ways, which are multiples of 16, below 2^18 in all: the sum stays below 2^32. */
     uint32_t ahead = next >> 4;
@@ -81,13 +81,11 @@ static bool place_corner(yb_load_t *load, int k)
         .z_q8 = load->corner_height[k],
     };
     int i = 0;
-    while (i < load->point_count && !same_place(vertex_of(load, i), &corner))
+    while (i < load->map->vertex_count && !same_place(vertex_of(load, i), &corner))
         i++;
     load->corner[k] = (yb_index_t)i;
-    if (i < load->point_count)
-        return corner.z_q8 == UNKNOWN_HEIGHT;
-    load->corner[k] = (yb_index_t)load->map->vertex_count;
-    return mesh_add_vertex(load, &corner);
+    return i < load->map->vertex_count ? corner.z_q8 == UNKNOWN_HEIGHT
+                                       : mesh_add_vertex(load, &corner);
 }
 
 bool border_close(yb_load_t *load)
@@ -102,11 +100,8 @@ bool border_close(yb_load_t *load)
     }
     /* All from what the code says, none from another's interpolation: first compute, then store. */
     int32_t height[4];
-    for (int k = 0; k < 4; k++) {
-        const yb_vertex_t *corner = vertex_of(load, load->corner[k]);
-        bool known = corner->z_q8 != UNKNOWN_HEIGHT;
-        height[k] = known ? corner->z_q8 : interpolate(load, corner);
-    }
+    for (int k = 0; k < 4; k++)
+        height[k] = interpolate(load, vertex_of(load, load->corner[k]));
     for (int k = 0; k < 4; k++)
         load->vertex[load->corner[k]].z_q8 = height[k];
     return true;

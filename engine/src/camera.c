@@ -138,11 +138,11 @@ static void find_rows(yb_frame_t *frame)
     /* Differences are within 2^21; 7 more bits keep short vectors exact: squares below 2^58. */
     int32_t way_q15[3];
     int32_t length_q15[3];
-    uint64_t square = 0;
+    int64_t square = 0;
     for (int i = 0; i < 3; i++) {
         way_q15[i] = (view->eye_q8[i] - view->look_q8[i]) * 128;
-        square += (uint64_t)fix_wide(way_q15[i], way_q15[i]);
-        length_q15[i] = (int32_t)fix_sqrt(square);
+        square = fix_add(square, way_q15[i], way_q15[i]);
+        length_q15[i] = (int32_t)fix_sqrt((uint64_t)square);
     }
     const int32_t flat = length_q15[1];
     const int32_t whole = length_q15[2];
@@ -212,7 +212,7 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
 /* A way on the screen, over a 1/depth that is up to an eighth nearer than it was: 8/7; with 20
  * fractional bits, rounded up. 34 bits and 20 more, less the 31 of `least`.
  */
-static uint32_t sway_of(uint64_t way, uint32_t least)
+APART uint32_t sway_of(uint64_t way, uint32_t least)
 {
     return (uint32_t)(((way * 8 / 7 << 20) + least - 1) / least);
 }

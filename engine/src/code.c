@@ -55,28 +55,45 @@ yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
     return YB_OK;
 }
 
-/* Units are within 2^30, a unit is below 2^20 64ths of a metre: 2^58 with the fraction bits.
- * Counted from the lowest height, so that the division rounds down.
+/* Rounded to the nearest: ⌊(256 z + cell / 2) / cell⌋, all doubled. Units are within 2^30, a unit
+ * is below 2^20 64ths of a metre: 2^59 with the fraction bits. Counted from the lowest height, so
+ * that the division rounds down.
  */
 bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height)
 {
-    uint32_t cell = yb_unit_64th_m(map->cell);
-    int64_t z_64th_m = fix_wide(*height, (int32_t)yb_unit_64th_m(map->unit)) + rest_64th_m;
-    int64_t above = (z_64th_m + (int64_t)cell * (YB_MAX_HEIGHT_Q8 / 256)) * 256 + cell / 2;
-    /* What is below the lowest height is, as an unsigned number, beyond the highest. */
     const uint32_t most = 2 * (uint32_t)YB_MAX_HEIGHT_Q8;
-    uint32_t z_q8 = fix_share((uint64_t)above, cell, most + 1);
+    int32_t cell = (int32_t)yb_unit_64th_m(map->cell);
+    int64_t z_64th_m = fix_add(rest_64th_m, *height, (int32_t)yb_unit_64th_m(map->unit));
+    int64_t above = fix_add(z_64th_m * 512, cell, (int32_t)most + 1);
+    /* What is below the lowest height is, as an unsigned number, beyond the highest. */
+    uint32_t z_q8 = fix_share((uint64_t)above, 2 * (uint32_t)cell, most + 1);
     *height = (int32_t)z_q8 - YB_MAX_HEIGHT_Q8;
     return z_q8 <= most;
 }
 
 /* CRC-8, polynomial x^8 + x^2 + x + 1. */
-static uint8_t crc8(uint8_t crc, uint8_t byte)
+static uint8_t crc8(unsigned crc, uint8_t byte)
 {
     crc ^= byte;
-    for (int i = 0; i < 8; i++)
-        crc = (uint8_t)((crc & 0x80) != 0 ? crc << 1 ^ 0x07 : crc << 1);
-    return crc;
+    for (int i = 0; i < 8; i++) {
+        crc <<= 1;
+        if (crc >> 8 != 0)
+            crc ^= 0x107;
+    }
+    return (uint8_t)crc;
+}
+
+bool add_point(yb_load_t *load, int32_t x, int32_t y, int32_t units)
+{
+    const yb_map_t *map = load->map;
+    yb_vertex_t point;
+    /* As unsigned numbers, what is below zero is far beyond the other sides. */
+    if ((uint32_t)x > map->east_q8 >> 8 || (uint32_t)y > map->north_q8 >> 8)
+        return false;
+    point.x_q8 = (uint16_t)(x << 8);
+    point.y_q8 = (uint16_t)(y << 8);
+    point.z_q8 = units;
+    return mesh_add_vertex(load, &point);
 }
 
 static enum part after_section(const yb_load_t *load)
@@ -116,12 +133,9 @@ static yb_status_t take_tail(yb_load_t *load, uint8_t byte)
         load->part = load->section_size == SECTION_LONG ? SECTION_SIZE_HIGH : SECTION_BODY;
         break;
     case SECTION_SIZE_HIGH:
-        load->section_size = (uint16_t)((unsigned)byte << 8);
-        load->part = SECTION_SIZE_LOW;
-        break;
-    case SECTION_SIZE_LOW:
-        load->section_size = (uint16_t)(load->section_size | byte);
-        load->part = SECTION_BODY;
+    case SECTION_SIZE_LOW: /* what stood there before is shifted out */
+        load->section_size = (uint16_t)(load->section_size << 8 | byte);
+        load->part++;
         break;
     case SECTION_BODY:
         take_section_byte(load, byte);

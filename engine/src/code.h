@@ -20,10 +20,13 @@ enum {
 YB_MUST_CHECK yb_status_t paper_take(yb_load_t *load, uint8_t byte);
 YB_MUST_CHECK yb_status_t compact_take(yb_load_t *load, uint8_t byte);
 
+/* Adds a point of a contour, at whole steps. False: it is not in the frame, or one too many. */
+YB_MUST_CHECK bool add_point(yb_load_t *load, int32_t x, int32_t y, int32_t units);
+
 /* From units above the base to q8 steps; rest_64th_m is what base_m leaves of the base. False: too
  * low or too high.
  */
-bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height);
+YB_MUST_CHECK bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height);
 
 /* Get ready for the byte after the first one. */
 void paper_begin(yb_load_t *load);

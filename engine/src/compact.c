@@ -178,12 +178,6 @@ static uint8_t gain_of(int coded)
     return (uint8_t)(coded == 0 ? 0 : (coded & 1 ? 181 : 128) >> (7 - coded / 2));
 }
 
-/* A line of the lattice as a plan coordinate: 255 steps at most. */
-static uint16_t place_q8(const yb_load_t *load, int line)
-{
-    return (uint16_t)((uint32_t)(line * load->spacing) << 8);
-}
-
 static int take_vertices(yb_load_t *load, int value)
 {
     uint32_t vertices = value < 8 ? 32 * ((uint32_t)value + 1) : (uint32_t)512 << (value - 8);
@@ -191,8 +185,8 @@ static int take_vertices(yb_load_t *load, int value)
     if (vertices > YB_MAX_VERTICES)
         return YB_ERR_LIMIT;
     load->vertices_promised = (uint16_t)vertices;
-    load->map->east_q8 = place_q8(load, load->columns);
-    load->map->north_q8 = place_q8(load, load->rows);
+    load->map->east_q8 = (uint16_t)((uint32_t)(load->columns * load->spacing) << 8);
+    load->map->north_q8 = (uint16_t)((uint32_t)(load->rows * load->spacing) << 8);
     load->start_x = load->columns / 2;
     load->start_y = load->rows / 2;
     return LINE_COUNT;
@@ -261,35 +255,23 @@ static int take_header(yb_load_t *load, int value)
 /* Heights farther from the base, in units, are too high in every unit. */
 #define MOST_UNITS ((int32_t)1 << 29)
 
-static bool outside(const yb_load_t *load, int x, int y)
-{
-    /* As unsigned numbers, what is below zero is far beyond the other sides. */
-    return (unsigned)x > load->columns || (unsigned)y > load->rows;
-}
-
 /* Until the relief is complete a vertex's z is in units above the base; cut, so that sums of
  * however many differences below 2^18 fit.
  */
-static bool add_point(yb_load_t *load, int32_t units)
+APART bool add_here(yb_load_t *load, int32_t units)
 {
-    if (load->point_count >= load->vertices_promised || outside(load, load->x, load->y))
-        return false;
-    yb_vertex_t *point = &load->vertex[load->point_count];
-    point->x_q8 = place_q8(load, load->x);
-    point->y_q8 = place_q8(load, load->y);
-    point->z_q8 = fix_clamp(units, -MOST_UNITS, MOST_UNITS);
-    load->point_count++;
-    return true;
+    return add_point(load, (int32_t)load->x * load->spacing, (int32_t)load->y * load->spacing,
+                     fix_clamp(units, -MOST_UNITS, MOST_UNITS));
 }
 
 /* There are at most as many contours as points, so that there is room for one if for its point. */
 static bool begin_contour(yb_load_t *load, int32_t units)
 {
-    yb_index_t first = (yb_index_t)load->point_count;
-    if (!add_point(load, units))
+    int first = load->map->vertex_count;
+    if (!add_here(load, units))
         return false;
     yb_contour_t *contour = &load->contour[load->contour_count++];
-    contour->first = first;
+    contour->first = (yb_index_t)first;
     contour->count = 1;
     return true;
 }
@@ -299,12 +281,10 @@ static int32_t height_near(const yb_load_t *load)
 {
     int32_t nearest = INT32_MAX;
     int32_t units = 0;
-    uint16_t x_q8 = place_q8(load, load->x);
-    uint16_t y_q8 = place_q8(load, load->y);
-    for (int i = 0; i < load->point_count; i++) {
+    for (int i = 0; i < load->map->vertex_count; i++) {
         const yb_vertex_t *v = vertex_of(load, i);
-        int32_t dx = fix_minus(v->x_q8, x_q8) >> 8;
-        int32_t dy = fix_minus(v->y_q8, y_q8) >> 8;
+        int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
+        int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
         int32_t d = dx * dx + dy * dy;
         if (d < nearest) {
             nearest = d;
@@ -345,7 +325,7 @@ static int next_step(yb_load_t *load)
 }
 
 /* A number that may be negative: 0, -1, 1, -2, 2 … */
-static int signed_of(int value)
+APART int signed_of(int value)
 {
     return value >> 1 ^ -(value & 1);
 }
@@ -380,7 +360,9 @@ static int take_start(yb_load_t *load)
     load->y = load->start_y;
     load->last = (yb_ring_t){1, 0};
     load->turn_context = TURN_FIRST;
-    return outside(load, load->x, load->y) ? YB_ERR_CORRUPT : (int)LINE_HEIGHT;
+    /* As unsigned numbers, what is below zero is far beyond the other sides. */
+    bool outside = (unsigned)load->x > load->columns || (unsigned)load->y > load->rows;
+    return outside ? YB_ERR_CORRUPT : (int)LINE_HEIGHT;
 }
 
 static int take_place(yb_load_t *load, int rest)
@@ -401,11 +383,11 @@ static int take_place(yb_load_t *load, int rest)
         load->y = (int)fix_clamp(load->y, 0, load->rows);
     }
     contour->count++;
-    if (!add_point(load, load->vertex[contour->first].z_q8))
+    if (!add_here(load, load->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     if (load->open)
-        return on_frame(load, &load->vertex[load->point_count - 1]) ? next_line(load)
-                                                                    : next_step(load);
+        return on_frame(load, &load->vertex[load->map->vertex_count - 1]) ? next_line(load)
+                                                                          : next_step(load);
     if (contour->count < 3)
         return next_step(load);
     int32_t away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));
@@ -549,19 +531,19 @@ static yb_status_t end_relief(yb_load_t *load)
     yb_map_t *map = load->map;
     /* From 2^15 m below the datum on: |base| < 2^15 units below 2^20 64ths of a metre. */
     uint64_t base_64th_m =
-        (uint64_t)(fix_wide(load->base, (int32_t)yb_unit_64th_m(map->unit)) + ((int32_t)1 << 21));
+        (uint64_t)fix_add((int32_t)1 << 21, load->base, (int32_t)yb_unit_64th_m(map->unit));
     uint32_t rest = (uint32_t)base_64th_m & 63;
     map->base_m = (int16_t)((int32_t)((uint32_t)base_64th_m / 64) - 32768);
     map->seed = load->recent >> 8 & 127;
-    if (base_64th_m >> 22 != 0 || !settle_height(map, rest, &load->frame_height))
+    if (base_64th_m >> 22 != 0)
         return YB_ERR_CORRUPT;
-    for (int i = 0; i < 4; i++) {
-        int32_t *height = &load->corner_height[i];
+    load->point_count = map->vertex_count;
+    /* The frame's height, those of its corners that the code has, and the points'. */
+    for (int i = -5; i < load->point_count; i++) {
+        int32_t *height = i == -5 ? &load->frame_height
+                          : i < 0 ? &load->corner_height[i + 4]
+                                  : &load->vertex[i].z_q8;
         if (*height != UNKNOWN_HEIGHT && !settle_height(map, rest, height))
-            return YB_ERR_CORRUPT;
-    }
-    for (int i = 0; i < load->point_count; i++) {
-        if (!settle_height(map, rest, &load->vertex[i].z_q8))
             return YB_ERR_CORRUPT;
     }
     return YB_OK;

@@ -80,6 +80,11 @@ int64_t fix_wide(int32_t a, int32_t b)
     return (int64_t)a * b;
 }
 
+int64_t fix_add(int64_t sum, int32_t a, int32_t b)
+{
+    return sum + fix_wide(a, b);
+}
+
 int32_t fix_product(int32_t a, int32_t b, int shift)
 {
     return (int32_t)(fix_wide(a, b) >> shift);

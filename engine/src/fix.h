@@ -12,6 +12,15 @@
 /* `>>` of a negative number rounds down on every compiler we know; C11 leaves it to them. */
 _Static_assert((-3 >> 1) == -2, "arithmetic right shift");
 
+/* A function that stays one: inlined, it would take registers from what its callers keep in them,
+ * and small processors have few.
+ */
+#ifdef __GNUC__
+#define APART static __attribute__((noinline))
+#else
+#define APART static
+#endif
+
 static inline int32_t fix_abs(int32_t a)
 {
     return a < 0 ? -a : a;
@@ -57,6 +66,9 @@ static inline int32_t fix_length(int32_t dx, int32_t dy)
 
 /* a * b, all 64 bits. */
 int64_t fix_wide(int32_t a, int32_t b);
+
+/* sum + a * b: what is added up one by one stays in the registers that it is handed on in. */
+int64_t fix_add(int64_t sum, int32_t a, int32_t b);
 
 /* The low 32 bits of a * b >> shift, 0 <= shift < 63, rounded down. */
 int32_t fix_product(int32_t a, int32_t b, int shift);

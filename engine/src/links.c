@@ -89,7 +89,7 @@ static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_conto
         if (line != NULL) {
             const yb_contour_t *before = line_before(load, spot);
             int32_t way = before == NULL ? 0 : height_of(load, before) - z;
-            if (before == line || way == 0 || up == 0 || up == way || (way > 0) != (up > way))
+            if (before == line || way == 0 || up == way || (way ^ (up - way)) < 0)
                 continue;
         }
         int32_t along = edge_length(load, p, spot->first);
@@ -225,9 +225,9 @@ static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
     return line->open || (line->left == load->here) == turns_left(load, line);
 }
 
-static bool apply_rules(yb_load_t *load)
+/* All rules of a region, of which this is the first line. */
+static bool apply_rules(yb_load_t *load, const yb_contour_t *line)
 {
-    const yb_contour_t *line = line_after(load, NULL);
     if (line_after(load, line) == NULL) {
         fan(load, line);
         return true;
@@ -245,23 +245,14 @@ static bool apply_rules(yb_load_t *load)
     return true;
 }
 
-/* Does an earlier line, or the left side of this one, bound the region too? */
-static bool seen_before(const yb_load_t *load, int side)
-{
-    for (int k = 0; k < side; k++) {
-        if (is_line(&load->contour[k >> 1]) && region_beside(load, k) == load->here)
-            return true;
-    }
-    return false;
-}
-
 bool links_add(yb_load_t *load)
 {
     load->first_saddle = load->map->vertex_count;
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
         load->here = region_beside(load, side);
-        if (is_line(&load->contour[side >> 1]) && !seen_before(load, side) && !apply_rules(load))
+        const yb_contour_t *line = line_after(load, NULL);
+        if (line == &load->contour[side >> 1] && !apply_rules(load, line))
             return false;
     }
     mesh_make_delaunay(load);

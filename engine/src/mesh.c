@@ -99,6 +99,15 @@ half_t spoke_after(const yb_load_t *load, half_t e)
     return last ? NO_HALF : spoke_left(load, e);
 }
 
+int neighbour_after(const yb_load_t *load, half_t *e)
+{
+    if (*e == NO_HALF)
+        return -1;
+    int q = apex_of(load, *e);
+    *e = spoke_after(load, *e);
+    return q;
+}
+
 half_t spoke_to(const yb_load_t *load, int a, int b)
 {
     half_t e = first_spoke(load, a);

@@ -107,6 +107,13 @@ half_t twin_of(const yb_load_t *load, half_t e);
 half_t first_spoke(const yb_load_t *load, int v);
 half_t spoke_after(const yb_load_t *load, half_t e);
 
+/* All neighbours of v, counter-clockwise; the first one again at the end, if v is not on the frame:
+ *
+ *     half_t e = first_spoke(load, v);
+ *     for (int q = end_of(load, e); q >= 0; q = neighbour_after(load, &e))
+ */
+int neighbour_after(const yb_load_t *load, half_t *e);
+
 /* The spoke to the left of e, without end; NO_HALF on the frame. */
 half_t spoke_left(const yb_load_t *load, half_t e);
 

@@ -129,16 +129,17 @@ static inline uint16_t model_learn(uint16_t model, int bit)
 static inline void ring_step(yb_ring_t ring, int *dx, int *dy)
 {
     int n = ring.length;
-    int side = (ring.place + n) / (2 * n) & 3; /* east, north, west, south */
-    int along = ring.place - 2 * n * side;     /* -n … n along it */
-    if (side == 0 && along > n)
-        along -= 8 * n;
-    if ((side & 2) != 0) {
-        n = -n;
-        along = -along;
+    int along = ring.place;
+    int turns = 0; /* east, north, west, south */
+    for (; along >= n; along -= 2 * n)
+        turns++;
+    *dx = n;
+    *dy = along; /* -n … n along the side */
+    for (; turns > 0; turns--) {
+        int x = -*dy;
+        *dy = *dx;
+        *dx = x;
     }
-    *dx = (side & 1) != 0 ? -along : n;
-    *dy = (side & 1) != 0 ? n : along;
 }
 
 static inline yb_ring_t ring_of(int dx, int dy)
@@ -156,7 +157,7 @@ static inline yb_ring_t ring_of(int dx, int dy)
  */
 static inline int ring_ahead(yb_ring_t last, int n)
 {
-    return (int)(((int32_t)last.place * n + last.length / 2) / last.length) + 8 * n - n / 2;
+    return (int)(((int32_t)last.place * n + (last.length >> 1)) / last.length) + 8 * n - (n >> 1);
 }
 
 /* Lattice points that a run takes when so many are left for so many spot heights: about the median
@@ -175,7 +176,10 @@ static inline int turn_context(int sector)
 
 static inline int length_context(int length)
 {
-    return length >= 8 ? 4 : 1 + fix_log2_floor((uint32_t)length);
+    int context = 1;
+    while (context < LENGTH_CONTEXTS - 1 && length >> context != 0)
+        context++;
+    return context;
 }
 
 #endif

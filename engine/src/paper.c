@@ -138,15 +138,9 @@ static yb_status_t take_dimension(yb_load_t *load, uint32_t d)
 /* A point has come: it lies in the frame or the code is corrupt. */
 static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 {
-    /* As unsigned numbers, what is below zero is far beyond the other sides. */
-    if ((uint32_t)x > load->map->east_q8 >> 8 || (uint32_t)y > load->map->north_q8 >> 8)
-        return YB_ERR_CORRUPT;
     const yb_contour_t *contour = &load->contour[load->at];
-    yb_vertex_t *point = &load->vertex[load->map->vertex_count];
-    point->x_q8 = (uint16_t)(x << 8);
-    point->y_q8 = (uint16_t)(y << 8);
-    point->z_q8 = load->vertex[contour->first].z_q8;
-    load->map->vertex_count++;
+    if (!add_point(load, x, y, load->vertex[contour->first].z_q8))
+        return YB_ERR_CORRUPT;
     load->state = STEP;
     if (load->map->vertex_count < contour->first + contour->count)
         return YB_MORE;

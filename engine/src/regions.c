@@ -45,8 +45,9 @@ bool regions_find(yb_load_t *load)
         int a = contour->first;
         contour->left = contour->right = (yb_index_t)region_at(load, a);
         if (contour->count > 1) {
-            contour->left = (yb_index_t)region_of(load, spoke_to(load, a, a + 1));
-            contour->right = (yb_index_t)region_of(load, spoke_to(load, a + 1, a));
+            half_t e = spoke_to(load, a, a + 1);
+            contour->left = (yb_index_t)region_of(load, e);
+            contour->right = (yb_index_t)region_of(load, twin_of(load, e));
             lines++;
         }
     }

@@ -45,7 +45,7 @@ typedef struct {
     int32_t dx, dy, bulge;
 } edge_t;
 
-static edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
+APART edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
 {
     int32_t dx = fix_minus(b->x_q8, a->x_q8);
     int32_t dy = fix_minus(b->y_q8, a->y_q8);
@@ -109,7 +109,7 @@ int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int short
  * in 1/64 step, 2 bits; 9 more make 2^58 in all. Counted from the steepest one downwards, so that
  * the division rounds down, like everything. 0 where it is flat all round.
  */
-static int32_t slope_q11(int64_t sum, uint32_t sum_z)
+APART int32_t slope_q11(int64_t sum, uint32_t sum_z)
 {
     const int32_t most = YB_MAX_SLOPE_Q11;
     int64_t above = ((int64_t)sum_z * 16 - sum) * 512;
@@ -136,7 +136,7 @@ static void find_slope(const yb_load_t *load, int v, int32_t slope[2])
         int j = 1;
         int k = 2;
         for (int i = 0; i < 3 && (right[2] | left[2]) != 0; i++) {
-            sum[i] += fix_wide(right[j], left[k]) - fix_wide(right[k], left[j]);
+            sum[i] = fix_add(fix_add(sum[i], right[j], left[k]), -right[k], left[j]);
             j = k;
             k = i;
         }
@@ -153,22 +153,18 @@ static void find_slope(const yb_load_t *load, int v, int32_t slope[2])
 static void limit_slope(const yb_load_t *load, int v, int32_t slope[2])
 {
     int32_t share_q15 = 32768;
-    half_t next = first_spoke(load, v);
-    while (next != NO_HALF) { /* from neighbour to neighbour: the last triangle may have two */
-        half_t e = next;
-        next = spoke_after(load, e);
-        for (int i = next == NO_HALF ? 0 : 1; i < 2; i++) {
-            int32_t way[3];
-            find_way(load, v, i == 0 ? apex_of(load, e) : end_of(load, e), way);
-            int32_t s = slope[0] * way[0] + slope[1] * way[1];
-            int32_t most = way[2] * 768;
-            if (most < 0) {
-                s = -s;
-                most = -most;
-            }
-            if (most > 0 && s > most)
-                share_q15 = fix_min(share_q15, fix_scale(most, 32768, s));
+    half_t e = first_spoke(load, v);
+    for (int q = end_of(load, e); q >= 0; q = neighbour_after(load, &e)) {
+        int32_t way[3];
+        find_way(load, v, q, way);
+        int32_t s = slope[0] * way[0] + slope[1] * way[1];
+        int32_t most = way[2] * 768;
+        if (most < 0) {
+            s = -s;
+            most = -most;
         }
+        if (most > 0 && s > most)
+            share_q15 = fix_min(share_q15, fix_scale(most, 32768, s));
     }
     for (int i = 0; i < 2; i++)
         slope[i] = (slope[i] * share_q15) >> 15;

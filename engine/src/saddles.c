@@ -16,15 +16,16 @@ static int32_t other_height(const yb_load_t *load, int32_t h)
     int32_t nearest = h;
     const yb_contour_t *line = line_after(load, NULL);
     for (int k = 0; k < 4;) {
-        int32_t z = h;
+        int p = load->corner[k];
         if (line != NULL) {
-            z = height_of(load, line);
+            p = line->first;
             line = line_after(load, line);
         } else {
-            int corner = load->corner[k++];
-            if (region_at(load, corner) == load->here)
-                z = height_at(load, corner);
+            k++;
+            if (region_at(load, p) != load->here)
+                continue;
         }
+        int32_t z = height_at(load, p);
         if (z != h && (nearest == h || fix_abs(z - h) < fix_abs(nearest - h)))
             nearest = z;
     }
@@ -210,7 +211,7 @@ static int peak_behind(const yb_load_t *load, const yb_contour_t *spot)
     if (line == NULL || height_of(load, line) != load->level_q8)
         return NOWHERE;
     int32_t up = height_of(load, spot) - load->level_q8;
-    bool peak = up != 0 && (up > 0) == (load->level_q8 > load->other_q8);
+    bool peak = up != 0 && (up ^ (load->level_q8 - load->other_q8)) >= 0;
     return peak ? number_of(load, line) : NOWHERE;
 }
 

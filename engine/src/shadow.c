@@ -21,7 +21,7 @@ typedef struct {
     int32_t low_q8, water_q8;
 } field_t;
 
-static uint8_t cell_height(const field_t *field, int32_t z_q8)
+APART uint8_t cell_height(const field_t *field, int32_t z_q8)
 {
     z_q8 = fix_max(z_q8, field->water_q8);
     return (uint8_t)fix_clamp((z_q8 - field->low_q8) >> field->scale_shift, 0, 255);

@@ -32,14 +32,14 @@ static bool is_bridge(const yb_load_t *load, const bridge_t *bridge)
 static bool split_bridge(yb_load_t *load, const bridge_t *bridge)
 {
     yb_vertex_t middle;
-    yb_index_t m = (yb_index_t)load->map->vertex_count;
+    int m = load->map->vertex_count;
     yb_branch_t *branch = &load->branch[m];
     find_middle(load, bridge->half, &middle);
     if (!mesh_insert(load, bridge->half, &middle))
         return false;
     branch->parent = (yb_index_t)bridge->parent;
     branch->other = (yb_index_t)bridge->other;
-    branch->end = m;
+    branch->end = (yb_index_t)m;
     branch->grown = false;
     return true;
 }
@@ -72,13 +72,11 @@ static uint32_t steepness(const yb_load_t *load, int m)
     int p = load->branch[m].parent;
     bool falls = height_at(load, p) < height_at(load, m);
     int32_t steepest = 0;
-    for (half_t e = first_spoke(load, p); e != NO_HALF; e = spoke_after(load, e)) {
-        for (int k = 0; k < 2; k++) {
-            int q = k == 0 ? end_of(load, e) : apex_of(load, e);
-            if (q < load->first_skeleton) {
-                int32_t slope = slope_to(load, p, q);
-                steepest = fix_max(steepest, falls ? -slope : slope);
-            }
+    half_t e = first_spoke(load, p);
+    for (int q = end_of(load, e); q >= 0; q = neighbour_after(load, &e)) {
+        if (q < load->first_skeleton) {
+            int32_t slope = slope_to(load, p, q);
+            steepest = fix_max(steepest, falls ? -slope : slope);
         }
     }
     if (steepest == 0)
@@ -123,7 +121,7 @@ static bool look_across(const yb_load_t *load, bridge_t *bridge, bool begins)
     int32_t up_other = height_at(load, bridge->other) - h;
     if (up_other == 0 && bridge->other < load->first_skeleton)
         bridge->other = load->map->vertex_count;
-    return !begins || (up != 0 && (up_other == 0 || (up > 0) == (up_other > 0)));
+    return !begins || (up != 0 && (up_other == 0 || (up ^ up_other) >= 0));
 }
 
 /* The first bridge, in the order of edges, of the triangles at v: of those from v to higher numbers

@@ -5,6 +5,8 @@
  * It gets a spot height at its widest place: a summit if the ground rises towards it from outside,
  * the bottom of a pit if it falls.
  */
+#include <string.h>
+
 #include "mesh.h"
 
 /* --- How high -------------------------------------------------------------------------------- */
@@ -38,13 +40,16 @@ static bool look_beside(yb_load_t *load, int region)
 static int32_t rise_farther_out(const yb_load_t *load, int32_t h)
 {
     int32_t rise = 0;
+    int32_t least = INT32_MAX;
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if ((load->ground[region_of(load, e)] & BESIDE) == 0)
             continue;
         int32_t up = h - height_at(load, origin_of(load, e));
-        bool nearer = rise == 0 || fix_abs(up) < fix_abs(rise) || (up > 0 && up == -rise);
-        if (up != 0 && nearer)
+        int32_t size = up > 0 ? 2 * up - 1 : -2 * up; /* of two alike the one upwards */
+        if (up != 0 && size < least) {
             rise = up;
+            least = size;
+        }
     }
     return rise;
 }
@@ -59,8 +64,9 @@ typedef struct {
     int32_t length;  /* of its lines */
     int32_t sloping; /* of those of their segments beyond which there is another height */
     int32_t outside; /* area of the triangles beyond those segments */
-    int64_t rise;    /* sum of length times rise towards the region: below 2^17 · 2^18 · 2^16 */
-    uint64_t change; /* the same without signs */
+    /* Sums of length times rise towards the region, and of length times fall: below 2^17 · 2^18 ·
+     * 2^16. */
+    int64_t change[2];
 } surroundings_t;
 
 /* Area of a half's triangle: see area_of. */
@@ -85,10 +91,9 @@ static void look_round(const yb_load_t *load, int region, surroundings_t *found)
         found->length += length;
         if (up == 0)
             continue;
-        int64_t rise = fix_wide(length, up);
+        int64_t *change = &found->change[up < 0];
+        *change = fix_add(*change, length, fix_abs(up));
         found->sloping += length;
-        found->rise += rise;
-        found->change += (uint64_t)(rise < 0 ? -rise : rise);
         found->outside += area_at(load, twin);
     }
 }
@@ -106,16 +111,16 @@ static int32_t rise_inside(const yb_load_t *load, int region, int32_t h)
         int32_t interval = rise_farther_out(load, h);
         return interval / 2 != 0 ? interval / 2 : interval;
     }
-    uint32_t interval = fix_share(round.change, (uint32_t)round.sloping, UINT32_MAX);
+    uint64_t change = (uint64_t)(round.change[0] + round.change[1]);
+    uint32_t interval = fix_share(change, (uint32_t)round.sloping, UINT32_MAX);
     uint32_t least = interval >> 3;
     /* In 1/2048, from 1/256 · 1/256 over 2 · 1/64 · 1/64: times 2^11 / 16. A slope of 512 is more
      * than enough; area / length is below 2^32, where a short line bounds much of the frame. */
-    uint64_t slope_q11 =
-        fix_share(round.change * 128, (uint32_t)round.outside, (uint32_t)512 << 11);
+    uint64_t slope_q11 = fix_share(change * 128, (uint32_t)round.outside, (uint32_t)512 << 11);
     uint32_t wide = (uint32_t)round.area * 8 / (uint32_t)round.length;
     int32_t rise = (int32_t)fix_share(slope_q11 * wide, 1 << 11, interval - least);
     rise = fix_max(rise, fix_max((int32_t)least, 1));
-    return round.rise < 0 ? -rise : rise;
+    return round.change[0] < round.change[1] ? -rise : rise;
 }
 
 /* --- Where ----------------------------------------------------------------------------------- */
@@ -167,10 +172,10 @@ static spot_t widest_place(const yb_load_t *load, int region)
     return spot;
 }
 
-static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
+static bool add_summit(yb_load_t *load, int region, const spot_t *spot, int32_t z)
 {
     half_t e = spot->half;
-    yb_index_t p = (yb_index_t)load->map->vertex_count;
+    int p = load->map->vertex_count;
     yb_vertex_t summit;
     find_middle(load, e, &summit);
     summit.z_q8 = z;
@@ -182,9 +187,9 @@ static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
         return false;
     mesh_legalise(load, p);
     yb_contour_t *contour = &load->contour[load->contour_count + load->summit_count++];
-    contour->first = p;
+    contour->first = (yb_index_t)p;
     contour->count = 1;
-    contour->left = contour->right = (yb_index_t)region_at(load, p);
+    contour->left = contour->right = (yb_index_t)region;
     contour->open = false;
     return true;
 }
@@ -192,8 +197,7 @@ static bool add_summit(yb_load_t *load, const spot_t *spot, int32_t z)
 bool summits_add(yb_load_t *load)
 {
     load->first_summit = load->map->vertex_count;
-    for (int r = 0; r < load->region_count; r++)
-        load->ground[r] = FLAT;
+    memset(load->ground, FLAT, load->region_count);
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if (rise_of(load, e) != 0)
             load->ground[region_of(load, e)] = 0;
@@ -211,7 +215,7 @@ bool summits_add(yb_load_t *load)
             int32_t rise = rise_inside(load, region, h);
             if (fix_abs(h + rise) > YB_MAX_HEIGHT_Q8)
                 rise = -rise;
-            if (!add_summit(load, &spot, h + rise))
+            if (!add_summit(load, region, &spot, h + rise))
                 return false;
             load->ground[region] = 0;
             changed = true;

@@ -94,8 +94,8 @@ static bool weigh(const yb_vertex_t *const p[3], int32_t x, int32_t y, int64_t w
     const yb_vertex_t *a = p[1];
     const yb_vertex_t *b = p[2];
     for (int i = 0; i < 3; i++) {
-        weight[i] = fix_wide(fix_minus(b->x_q8, a->x_q8), y - a->y_q8) -
-                    fix_wide(fix_minus(b->y_q8, a->y_q8), x - a->x_q8);
+        weight[i] = fix_add(fix_wide(fix_minus(b->x_q8, a->x_q8), y - a->y_q8),
+                            fix_minus(b->y_q8, a->y_q8), a->x_q8 - x);
         inside = inside && weight[i] >= 0;
         a = b;
         b = p[i];

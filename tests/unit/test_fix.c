@@ -172,6 +172,8 @@ static void shares(void **state)
 {
     (void)state;
     assert_true(fix_wide(INT32_MIN, INT32_MIN) == (int64_t)1 << 62);
+    assert_true(fix_add(INT64_MAX - ((int64_t)1 << 62), INT32_MIN, INT32_MIN) == INT64_MAX);
+    assert_true(fix_add(-7, -2, 3) == -13);
     assert_true(fix_wide(INT32_MIN, INT32_MAX) == -(((int64_t)1 << 62) - ((int64_t)1 << 31)));
     assert_int_equal(fix_scale(INT32_MAX, INT32_MAX, INT32_MAX), INT32_MAX);
     assert_int_equal(fix_scale(-INT32_MAX, INT32_MAX, INT32_MAX), -INT32_MAX);
