@@ -4,6 +4,7 @@
 
 #include "camera.h"
 #include "fix.h"
+#include "pixels.h"
 
 /* clang-format off */
 static const uint8_t hues[YB_PALETTES][ALL_HUES][3] YB_ROM = {
@@ -91,8 +92,7 @@ uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t n
         green = blend((int32_t)green, yb_rom_u8(&palette[HUE_HAZE][1]), haze);
         blue = blend((int32_t)blue, yb_rom_u8(&palette[HUE_HAZE][2]), haze);
     }
-    const uint16_t pixel = rgb565(red, green, blue);
-    return pixel != 0 ? pixel : 1; /* 0 is what nothing is drawn on */
+    return rgb565(red, green, blue) | PIXELS_DRAWN;
 }
 
 uint16_t colour_sky(const yb_frame_t *frame, int32_t row)

@@ -171,10 +171,11 @@ void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
         .first_row = fix_min(band->y, frame->screen.height),
         .end_row = fix_min(band->y + band->rows, frame->screen.height),
     };
-    pixels_clear(&raster);
+    for (int32_t y = raster.first_row; y < raster.end_row; y++)
+        pixels_clear(&raster, y, colour_sky(frame, y));
     draw_in_order(frame, &raster);
     for (int32_t y = raster.first_row; y < raster.end_row; y++)
-        pixels_show(&raster, y, colour_sky(frame, y));
+        pixels_show(&raster, y);
 }
 
 void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)

@@ -25,7 +25,7 @@ void order_begin(yb_frame_t *frame)
  * of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of eighths, so that
  * in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is below 2^31.
  */
-static int32_t left_of(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+static inline int32_t left_of(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
 {
     const int32_t dx = fix_minus(b->x_q8, a->x_q8);
     const int32_t dy = fix_minus(b->y_q8, a->y_q8);
@@ -33,9 +33,10 @@ static int32_t left_of(const yb_frame_t *frame, const yb_vertex_t *a, const yb_v
     return (dx >> 5) * (frame->eye_y_q6 - (a->y_q8 >> 2)) -
            (dy >> 5) * (frame->eye_x_q6 - (a->x_q8 >> 2));
 #else
-    return (int32_t)(((int64_t)dx * (frame->eye_y_q6 * 4 - a->y_q8) -
-                      (int64_t)dy * (frame->eye_x_q6 * 4 - a->x_q8)) >>
-                     7);
+    /* Of a map in full detail it may be rounded: away from 0, so that the sign stays. */
+    const int64_t left = (int64_t)dx * (frame->eye_y_q6 * 4 - a->y_q8) -
+                         (int64_t)dy * (frame->eye_x_q6 * 4 - a->x_q8);
+    return (int32_t)((left + (left > 0 ? 127 : 0)) >> 7);
 #endif
 }
 
@@ -52,42 +53,38 @@ void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part
     part->eye[2] = left_of(frame, a, b) >> 1;
 }
 
-/* Does a vertex lie where the lines of sight go? Products are within 2^19 * 2^12. */
+/* Does a vertex lie where lines of sight ahead, or back, go? Products are within 2^19 * 2^12. */
 static bool lies_there(const yb_frame_t *frame, int which, const yb_vertex_t *v)
 {
     /* The way that the camera looks, in plan, also if it looks straight down. */
     const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
     const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
     const int32_t ahead = (v->x_q8 / 4 - frame->eye_x_q6) * x + (v->y_q8 / 4 - frame->eye_y_q6) * y;
-    return which == FOR_ALL || (which == FOR_AHEAD ? ahead > 0 : ahead < 0);
+    return which == FOR_AHEAD ? ahead > 0 : ahead < 0;
 }
 
-/* Across which edges of a triangle something may hide it: those that have the eye beyond, a bit
- * each.
+/* What is known of a triangle while it is sorted: which of those beside it it may hide, a bit for
+ * each edge, and how many may hide it.
  */
-static uint8_t hiders_of(const yb_frame_t *frame, int which, const yb_index_t corner[3],
-                         yb_across_t across)
+enum {
+    HIDES = 7,
+    HIDDEN = 8
+};
+
+static uint8_t look_round(const yb_frame_t *frame, int which, const yb_index_t corner[3],
+                          yb_across_t across)
 {
-    uint8_t hiders = 0;
+    unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
         const yb_vertex_t *a = &frame->map->vertex[corner[i]];
         const yb_vertex_t *b = &frame->map->vertex[corner[next3(i)]];
-        if ((across & NO_TRIANGLE) != NO_TRIANGLE && left_of(frame, a, b) < 0 &&
-            (lies_there(frame, which, a) || lies_there(frame, which, b)))
-            hiders = (uint8_t)(hiders | 1 << i);
+        if ((across & NO_TRIANGLE) == NO_TRIANGLE ||
+            (which != FOR_ALL && !lies_there(frame, which, a) && !lies_there(frame, which, b)))
+            continue;
+        const int32_t left = left_of(frame, a, b);
+        found += left < 0 ? HIDDEN : left > 0 ? 1u << i : 0;
     }
-    return hiders;
-}
-
-/* Says of a triangle that it no longer hides another one beside it. Was it the last to do so? */
-static bool uncover(uint8_t *hiders, yb_across_t across, yb_triangle_t by)
-{
-    const uint8_t before = *hiders;
-    for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
-        if ((across & NO_TRIANGLE) == by)
-            *hiders = (uint8_t)(*hiders & ~(1 << i));
-    }
-    return before != 0 && *hiders == 0;
+    return (uint8_t)found;
 }
 
 /* Each triangle after all that may hide it. False: there is a circle; its triangles come last. */
@@ -97,26 +94,29 @@ static bool sort(yb_frame_t *frame, int which)
     const yb_index_t *corner = yb_map_triangle(frame->map, 0);
     const yb_triangle_t count = frame->map->triangle_count;
     yb_triangle_t *const order = frame->order;
-    uint8_t *const hiders = frame->bins; /* not in use yet */
+    uint8_t *const known = frame->bins; /* not in use yet */
     yb_triangle_t ready = 0;
     for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
-        hiders[t] = hiders_of(frame, which, corner, across[t]);
-        if (hiders[t] == 0)
+        known[t] = look_round(frame, which, corner, across[t]);
+        if (known[t] < HIDDEN)
             order[ready++] = t;
     }
     for (yb_triangle_t done = 0; done < ready; done++) {
-        const yb_triangle_t t = order[done];
-        yb_across_t word = across[t];
-        for (int i = 0; i < 3; i++, word >>= ENTRY_BITS) {
+        yb_across_t word = across[order[done]];
+        for (unsigned hides = known[order[done]] & HIDES; hides != 0; hides >>= 1) {
             const yb_triangle_t beside = (yb_triangle_t)(word & NO_TRIANGLE);
-            if (beside != NO_TRIANGLE && uncover(&hiders[beside], across[beside], t))
+            word >>= ENTRY_BITS;
+            if ((hides & 1) == 0)
+                continue;
+            known[beside] = (uint8_t)(known[beside] - HIDDEN);
+            if (known[beside] < HIDDEN)
                 order[ready++] = beside;
         }
     }
     if (ready == count)
         return true;
     for (yb_triangle_t t = 0; t < count; t++) {
-        if (hiders[t] != 0)
+        if (known[t] >= HIDDEN)
             order[ready++] = t;
     }
     return false;

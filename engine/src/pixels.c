@@ -1,7 +1,5 @@
 #include "pixels.h"
 
-#include <string.h>
-
 #include <yamabiko/rom.h>
 
 /* Which of every four pixels of a row are lit at a grey that reaches m of 16, [m][y & 3], the
@@ -16,18 +14,24 @@ static const uint8_t dither[17][4] YB_ROM = {
     {0xff, 0xff, 0xff, 0x77}, {0xff, 0xff, 0xff, 0xff},
 };
 
-void pixels_clear(const raster_t *raster)
+void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky)
 {
-    const size_t bytes = yb_band_row_bytes(raster->screen);
-    for (int32_t y = raster->first_row; y < raster->end_row; y++)
-        memset(pixels_row(raster, y), 0, bytes);
-}
-
-static void show_colours(uint8_t *at, size_t width, uint16_t sky)
-{
-    const uint16_t swapped = pixels_swapped(sky);
-    for (uint8_t *const end = at + 2 * width; at != end; at += 2)
-        pixels_put_colour(at, swapped);
+    uint8_t *at = pixels_row(raster, y);
+    uint8_t *const end = at + yb_band_row_bytes(raster->screen);
+    if (!pixels_have_colours(raster->screen)) {
+        for (; at != end; at++)
+            *at = 0;
+        return;
+    }
+    const uint16_t swapped = pixels_swapped((uint16_t)(sky & ~PIXELS_DRAWN));
+    for (; at != end && ((uintptr_t)at & 2) != 0; at += 2)
+        PIXELS_COPY(at, &swapped, 2);
+    for (const uint32_t pair = swapped * (uint32_t)0x10001; end - at >= 16; at += 16) {
+        for (int i = 0; i < 16; i += 4)
+            PIXELS_COPY(at + i, &pair, 4);
+    }
+    for (; at != end; at += 2)
+        PIXELS_COPY(at, &swapped, 2);
 }
 
 /* The darkest grey that is drawn, 1, lights none, the lightest, 15, all. */
@@ -45,13 +49,10 @@ static void show_mono(const uint8_t *grey, uint8_t *dots, size_t width, int32_t 
     }
 }
 
-void pixels_show(const raster_t *raster, int32_t y, uint16_t sky)
+void pixels_show(const raster_t *raster, int32_t y)
 {
-    const yb_screen_t *screen = raster->screen;
     const yb_band_t *band = raster->band;
-    uint8_t *const row = pixels_row(raster, y);
-    if (screen->format == YB_RGB565)
-        show_colours(row, screen->width, sky);
-    else if (screen->format == YB_MONO)
-        show_mono(row, band->pixels + (size_t)(y - band->y) * band->pitch, screen->width, y);
+    if (raster->screen->format == YB_MONO)
+        show_mono(pixels_row(raster, y), band->pixels + (size_t)(y - band->y) * band->pitch,
+                  raster->screen->width, y);
 }

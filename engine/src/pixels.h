@@ -1,9 +1,13 @@
-/* The pixels of a band, while it is drawn: 0 is what nothing has been drawn on, and what is drawn
- * stays. With colours they are 16 bits, high byte first; else 16 greys, two a byte, the left one in
- * the high nibble, of which those of YB_MONO become dots when all is drawn.
+/* The pixels of a band, while it is drawn: what is drawn stays, and what is free shows the sky.
+ *
+ * Without colours they are 16 greys, two a byte, the left one in the high nibble, of which those of
+ * YB_MONO become dots when all is drawn; the sky is 0, and nothing else is. With colours they are
+ * 16 bits, high byte first, of which the lowest of green tells: it is set in what is drawn.
  */
 #ifndef YB_PIXELS_H
 #define YB_PIXELS_H
+
+#include <string.h>
 
 #include <yamabiko/yamabiko.h>
 
@@ -29,8 +33,10 @@ static inline uint8_t *pixels_row(const raster_t *raster, int32_t y)
     return first + (size_t)(y - band->y) * pixels_pitch(raster);
 }
 
-/* A colour as it lies in memory: one load or store, where a processor can and the compiler knows.
- */
+/* The bit of a colour that tells what is drawn. */
+#define PIXELS_DRAWN ((uint16_t)0x20)
+
+/* A colour as it lies in memory, for one load or store. */
 static inline uint16_t pixels_swapped(uint16_t colour)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -40,20 +46,54 @@ static inline uint16_t pixels_swapped(uint16_t colour)
 #endif
 }
 
+/* Copies a pixel with colours, or a pair of them that lies at a multiple of four: one instruction,
+ * where the compiler is told.
+ */
+#if defined(__GNUC__)
+#define PIXELS_COPY(to, from, bytes)                                                               \
+    __builtin_memcpy(__builtin_assume_aligned((to), (bytes)),                                      \
+                     __builtin_assume_aligned((from), (bytes)), (bytes))
+#else
+#define PIXELS_COPY(to, from, bytes) memcpy((to), (from), (bytes))
+#endif
+
 static inline void pixels_put_colour(uint8_t *at, uint16_t swapped)
 {
     uint16_t there;
-    __builtin_memcpy(&there, at, sizeof there);
-    if (there == 0)
-        __builtin_memcpy(at, &swapped, sizeof swapped);
+    PIXELS_COPY(&there, at, 2);
+    if ((there & pixels_swapped(PIXELS_DRAWN)) == 0)
+        PIXELS_COPY(at, &swapped, 2);
 }
 
-/* Draws on what is free of the pixels from x up to end of a row. A pixel value is not 0. */
+static inline void pixels_put_pair(uint8_t *at, uint32_t pair)
+{
+    const uint32_t drawn = pixels_swapped(PIXELS_DRAWN) * (uint32_t)0x10001;
+    uint32_t there;
+    PIXELS_COPY(&there, at, 4);
+    if ((there & drawn) == 0) {
+        PIXELS_COPY(at, &pair, 4);
+    } else if ((there & drawn) != drawn) {
+        pixels_put_colour(at, (uint16_t)pair);
+        pixels_put_colour(at + 2, (uint16_t)pair);
+    }
+}
+
+/* Draws on what is free of the pixels from x up to end of a row. */
 static inline void pixels_fill_colour(uint8_t *row, int32_t x, int32_t end, uint16_t colour)
 {
     const uint16_t swapped = pixels_swapped(colour);
+    uint8_t *at = row + 2 * x;
     uint8_t *const to = row + 2 * end;
-    for (uint8_t *at = row + 2 * x; at < to; at += 2)
+    if (to - at >= 8) {
+        const uint32_t pair = swapped * (uint32_t)0x10001;
+        if (((uintptr_t)at & 2) != 0) {
+            pixels_put_colour(at, swapped);
+            at += 2;
+        }
+        for (; to - at >= 4; at += 4)
+            pixels_put_pair(at, pair);
+    }
+    for (; at < to; at += 2)
         pixels_put_colour(at, swapped);
 }
 
@@ -89,12 +129,10 @@ static inline void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsign
         *at = (uint8_t)(*at | high);
 }
 
-/* Nothing drawn, from the first row up to the last. */
-void pixels_clear(const raster_t *raster);
+/* Nothing but the sky in row y. */
+void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky);
 
-/* Row y as it is to be shown, when all is drawn: the sky where nothing is. No row above it is drawn
- * on any more.
- */
-void pixels_show(const raster_t *raster, int32_t y, uint16_t sky);
+/* Row y as it is to be shown, when all is drawn. No row above it is drawn on any more. */
+void pixels_show(const raster_t *raster, int32_t y);
 
 #endif

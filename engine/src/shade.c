@@ -15,10 +15,8 @@ enum {
 /* What most triangles are, and what few of them need: some compilers lay out code by it. */
 #if defined(__GNUC__)
 #define USUAL(condition) __builtin_expect((condition), 1)
-#define APART __attribute__((noinline))
 #else
 #define USUAL(condition) (condition)
-#define APART
 #endif
 
 /* A direction. */
@@ -220,8 +218,8 @@ static int hue_of(const yb_frame_t *frame, int32_t z_q8)
 }
 
 /* What a triangle of the ground looks like that has this shade where there are colours or haze. */
-APART static shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3],
-                              int32_t shade, int32_t light)
+APART shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3], int32_t shade,
+                       int32_t light)
 {
     const int32_t near = frame->haze_near == 0 ? 0 : nearest_of(corner);
     int hue = 0;
@@ -236,8 +234,8 @@ APART static shade_t coloured(const yb_frame_t *frame, const yb_point_t *const c
 /* What a triangle looks like where there is more to it than the sun's light, by its normal: x in
  * the lower half and y in the upper one, and z.
  */
-APART static shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3],
-                             uint32_t normal_xy, int32_t normal_z)
+APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3],
+                      uint32_t normal_xy, int32_t normal_z)
 {
     normal_t normal = {(int16_t)(normal_xy & 0xffff), (int32_t)normal_xy >> 16, normal_z};
     const int32_t water = frame->view.water_q8;

@@ -50,8 +50,8 @@ static union {
     uint8_t shadow[YB_SHADOW_WORK(GOLDEN_SHADOW_SIDE)];
     struct {
         yb_frame_t frame;
-        uint8_t greys[(size_t)MOST_WIDTH / 2 * GOLDEN_ROWS];
         uint8_t pixels[(size_t)MOST_PITCH * GOLDEN_ROWS];
+        uint8_t greys[(size_t)MOST_WIDTH / 2 * GOLDEN_ROWS];
     } drawing;
 } work;
 

@@ -114,7 +114,8 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
     const int32_t height = frame->screen.height;
     drawing_t drawing = {frame, {&frame->screen, band, 0, height, NULL, NULL}};
     raster_t *raster = &drawing.raster;
-    pixels_clear(raster);
+    for (int32_t y = 0; y < height; y++)
+        pixels_clear(raster, y, colour_sky(frame, y));
     for (int32_t y = 0; y < height; y = raster->end_row) {
         raster->first_row = y;
         raster->end_row = order_rows(frame, y, height);
@@ -124,7 +125,7 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
         (void)plain_ordered(frame, draw_leaf, &drawing);
     }
     for (int32_t y = 0; y < height; y++)
-        pixels_show(raster, y, colour_sky(frame, y));
+        pixels_show(raster, y);
 }
 
 /* --- Views ------------------------------------------------------------------------------------ */

@@ -32,21 +32,29 @@ static void open_page(page_t *page, yb_format_t format, int y, int rows)
     page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, pixels + GUARD, PITCH, greys};
     page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
     memset(pixels, 0xa5, sizeof pixels);
-    pixels_clear(&page->raster);
+    for (int i = 0; i < rows; i++)
+        pixels_clear(&page->raster, y + i, 0);
+}
+
+/* A number below 32 as what is drawn, with colours or without. */
+static uint16_t value_of(const yb_screen_t *screen, uint16_t number)
+{
+    return screen->format == YB_RGB565 ? number | PIXELS_DRAWN : number;
 }
 
 /* Draws a triangle; true if it shows its front and lies between the sides of the band. */
 static bool draw(const raster_t *raster, const yb_spot_t corner[3], uint16_t pixel)
 {
+    pixel = value_of(raster->screen, pixel);
     return raster_draw(raster, &corner[0], &corner[1], &corner[2], pixel) != RASTER_NOTHING;
 }
 
-/* A pixel value as it was drawn: a colour or a shade. */
+/* The number that was drawn, 0 where none was. */
 static uint16_t pixel_at(const page_t *page, int x, int line)
 {
     const uint8_t *row = page->band.pixels + (size_t)line * page->band.pitch;
     if (page->screen.format == YB_RGB565)
-        return (uint16_t)(row[2 * x] << 8 | row[2 * x + 1]);
+        return (uint16_t)((row[2 * x] << 8 | row[2 * x + 1]) & ~PIXELS_DRAWN);
     if (page->screen.format == YB_MONO)
         row = greys + (size_t)line * WIDTH / 2;
     return x % 2 == 0 ? row[x / 2] >> 4 : row[x / 2] & 15;
@@ -55,7 +63,7 @@ static uint16_t pixel_at(const page_t *page, int x, int line)
 static void show(const page_t *page)
 {
     for (int y = page->raster.first_row; y < page->raster.end_row; y++)
-        pixels_show(&page->raster, y, 0);
+        pixels_show(&page->raster, y);
 }
 
 /* What the screen makes of it. */
@@ -301,6 +309,10 @@ static void both_ways_are_the_same(void **state)
         cut.value[4] = cut.value[1];
         cut.interval = round % 2 == 0 ? rng_range(&rng, 2000, 60000) : 0;
         cut.zero = round % 2 == 0 ? 0 : 30000;
+        if (round % 3 == 0) {
+            cut.below = cut.above = 3 | PIXELS_DRAWN;
+            cut.line = 14 | PIXELS_DRAWN;
+        }
         const raster_cut_t *lines = round % 4 < 2 ? &cut : NULL;
         raster_shape_t shape;
         if (raster_front(&p[0], &p[1], &p[2], &shape) != RASTER_SMALL)
@@ -309,11 +321,11 @@ static void both_ways_are_the_same(void **state)
         const int rows = rng_range(&rng, 1, HEIGHT);
         const int first = rng_range(&rng, 0, HEIGHT - rows);
         open_page(&page, formats[round % 3], first, rows);
-        raster_level(&page.raster, &shape, 9, lines);
+        raster_level(&page.raster, &shape, value_of(&page.screen, 9), lines);
         memcpy(level, pixels, sizeof pixels);
         memcpy(level_greys, greys, sizeof greys);
         open_page(&page, formats[round % 3], first, rows);
-        raster_plane(&page.raster, &shape, 9, lines);
+        raster_plane(&page.raster, &shape, value_of(&page.screen, 9), lines);
         assert_memory_equal(level, pixels, sizeof pixels);
         if (page.screen.format == YB_MONO)
             assert_memory_equal(level_greys, greys, (size_t)(WIDTH / 2 * rows));
@@ -368,7 +380,7 @@ static void huge_triangles_fit(void **state)
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, row, sizeof row, NULL};
         raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
-        pixels_clear(&raster);
+        pixels_clear(&raster, y, 0);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
             p[k].x_q4 = rng_one_in(&rng, 2) ? -YB_MAX_SIDE * 16 : 2 * YB_MAX_SIDE * 16;

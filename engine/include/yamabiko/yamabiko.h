@@ -484,7 +484,8 @@ int16_t yb_cos_q14(uint16_t angle_bam);
 
 typedef enum {
     YB_GREY4,  /* 16 greys, two pixels a byte, the left one in the high nibble */
-    YB_RGB565, /* 16 bits, high byte first, as most panels take them */
+    YB_RGB565, /* 16 bits, high byte first, as most panels take them; the lowest bit of green is set
+                * in what is drawn and clear in the sky */
     YB_MONO    /* lit or not, eight pixels a byte, the leftmost in the highest bit: shades by
                 * ordered dithering, four by four */
 } yb_format_t;
@@ -509,7 +510,7 @@ static inline size_t yb_screen_pitch(const yb_screen_t *screen)
  */
 typedef struct {
     uint16_t y, rows; /* first row and how many; rows below the screen are left alone */
-    uint8_t *pixels;  /* rows * pitch bytes */
+    uint8_t *pixels;  /* rows * pitch bytes, with colours at an even address */
     size_t pitch;     /* bytes from one row of pixels to the next */
     uint8_t *greys;   /* YB_MONO: rows * yb_band_row_bytes; else unused */
 } yb_band_t;
