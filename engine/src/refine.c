@@ -304,65 +304,64 @@ static int32_t put_last(yb_part_t *part)
 static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                              yb_level_t *level)
 {
-    const yb_part_t whole = *part;
-    const yb_point_t *const *p = whole.point;
+    const yb_point_t *const a = part->point[0];
+    const yb_point_t *const b = part->point[1];
+    const yb_point_t *const c = part->point[2];
+    const yb_edge_t bc = part->edge[1];
+    const yb_edge_t ca = part->edge[2];
+    const int32_t eye_a = part->eye[0];
+    const int32_t eye_b = part->eye[1];
+    const int32_t eye_c = part->eye[2] >> 1;
+    const int32_t bulge = part->bulge;
     yb_point_t *const m = &level[0].middle;
     yb_edge_t am;
     yb_edge_t mb;
-    refine_middle(frame, view, p[0], p[1], whole.edge[0], m);
-    halve(frame, p[0], m, p[1], whole.edge[0], &am, &mb);
+    refine_middle(frame, view, a, b, part->edge[0], m);
+    halve(frame, a, m, b, part->edge[0], &am, &mb);
+    const int32_t across = (eye_a - eye_b) >> 1;
+    const bool a_first = eye_a > eye_b;
+    yb_part_t *const with_a = a_first ? part : &level[0].rest;
+    yb_part_t *const with_b = a_first ? &level[0].rest : part;
     /* The line mc is no edge to be split: it is no longer than the mean of bc and ca, which are
      * left whole. */
-    const int32_t across = (whole.eye[0] - whole.eye[1]) >> 1;
-    const int32_t along = whole.eye[2] >> 1;
-    const yb_part_t with_a = {
-        {p[2], p[0], m}, {whole.edge[2], am, 0}, {along, across, whole.eye[1]}, whole.bulge};
-    const yb_part_t with_b = {
-        {p[1], p[2], m}, {whole.edge[1], 0, mb}, {-across, along, whole.eye[0]}, whole.bulge};
-    const bool a_first = whole.eye[0] > whole.eye[1];
-    *part = a_first ? with_a : with_b;
-    level[0].rest = a_first ? with_b : with_a;
+    *with_a = (yb_part_t){{c, a, m}, {ca, am, 0}, {eye_c, across, eye_b}, bulge};
+    *with_b = (yb_part_t){{b, c, m}, {bc, 0, mb}, {-across, eye_c, eye_a}, bulge};
     return level + 1;
 }
 
 static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                              yb_level_t *level, yb_edge_t inside)
 {
-    const yb_part_t whole = *part;
-    const yb_point_t *const *p = whole.point;
-    const int32_t *eye = whole.eye;
-    const int32_t half = half_way(&whole);
+    const yb_point_t *const a = part->point[0];
+    const yb_point_t *const b = part->point[1];
+    const yb_point_t *const c = part->point[2];
+    const yb_edge_t bc = part->edge[1];
+    const yb_edge_t ca = part->edge[2];
+    const int32_t eye_a = part->eye[0];
+    const int32_t eye_b = part->eye[1];
+    const int32_t eye_c = part->eye[2];
+    const int32_t half = half_way(part);
+    const int32_t bulge = part->bulge;
     yb_point_t *const m = &level[0].middle;
     yb_point_t *const n = &level[1].middle;
     yb_edge_t am;
     yb_edge_t mb;
     yb_edge_t bn;
     yb_edge_t nc;
-    refine_middle(frame, view, p[0], p[1], whole.edge[0], m);
-    refine_middle(frame, view, p[1], p[2], whole.edge[1], n);
-    halve(frame, p[0], m, p[1], whole.edge[0], &am, &mb);
-    halve(frame, p[1], n, p[2], whole.edge[1], &bn, &nc);
-    const yb_edge_t mc = cross_edge(frame, m, p[2], whole.edge[1]) & inside;
-    const yb_part_t with_b = {
-        {m, p[1], n}, {mb, bn, 0}, {eye[0], eye[1] - half, eye[2]}, whole.bulge};
-    const yb_part_t with_a = {{p[2], p[0], m},
-                              {whole.edge[2], am, mc},
-                              {eye[2] >> 1, (eye[0] - eye[1]) >> 1, eye[1]},
-                              whole.bulge};
-    const yb_part_t with_c = {
-        {p[2], m, n}, {mc, 0, nc}, {half - eye[1], eye[0], eye[1] - eye[0]}, whole.bulge};
-    const bool a_first = eye[0] > eye[1];
-    yb_part_t *to = &level[1].rest;
-    if (eye[1] > half) {
-        *part = with_b;
-    } else {
-        level[0].rest = with_b;
-        *part = a_first ? with_a : with_c;
-        *to = a_first ? with_c : with_a;
-        return level + 2;
-    }
-    *to = a_first ? with_a : with_c;
-    level[0].rest = a_first ? with_c : with_a;
+    refine_middle(frame, view, a, b, part->edge[0], m);
+    refine_middle(frame, view, b, c, bc, n);
+    halve(frame, a, m, b, part->edge[0], &am, &mb);
+    halve(frame, b, n, c, bc, &bn, &nc);
+    const yb_edge_t mc = cross_edge(frame, m, c, bc) & inside;
+    yb_part_t *const with_b = eye_b > half ? part : &level[0].rest;
+    yb_part_t *const first = eye_b > half ? &level[1].rest : part;
+    yb_part_t *const second = eye_b > half ? &level[0].rest : &level[1].rest;
+    yb_part_t *const with_a = eye_a > eye_b ? first : second;
+    yb_part_t *const with_c = eye_a > eye_b ? second : first;
+    *with_b = (yb_part_t){{m, b, n}, {mb, bn, 0}, {eye_a, eye_b - half, eye_c}, bulge};
+    *with_a =
+        (yb_part_t){{c, a, m}, {ca, am, mc}, {eye_c >> 1, (eye_a - eye_b) >> 1, eye_b}, bulge};
+    *with_c = (yb_part_t){{c, m, n}, {mc, 0, nc}, {half - eye_b, eye_a, eye_b - eye_a}, bulge};
     return level + 2;
 }
 
@@ -370,11 +369,16 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
                                yb_level_t *level, yb_edge_t inside)
 {
     const int32_t half = put_last(part);
-    const yb_part_t whole = *part;
-    const yb_point_t *const *p = whole.point;
-    const yb_edge_t *edge = whole.edge;
-    const int32_t *eye = whole.eye;
-    const int32_t bulge = whole.bulge >> 2;
+    const yb_point_t *const a = part->point[0];
+    const yb_point_t *const b = part->point[1];
+    const yb_point_t *const c = part->point[2];
+    const yb_edge_t ab = part->edge[0];
+    const yb_edge_t bc = part->edge[1];
+    const yb_edge_t ca = part->edge[2];
+    const int32_t eye_a = part->eye[0];
+    const int32_t eye_b = part->eye[1];
+    const int32_t eye_c = part->eye[2];
+    const int32_t bulge = part->bulge >> 2;
     yb_point_t *const m = &level[0].middle;
     yb_point_t *const n = &level[1].middle;
     yb_point_t *const o = &level[2].middle;
@@ -384,26 +388,28 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
     yb_edge_t nc;
     yb_edge_t co;
     yb_edge_t oa;
-    refine_middle(frame, view, p[0], p[1], edge[0], m);
-    refine_middle(frame, view, p[1], p[2], edge[1], n);
-    refine_middle(frame, view, p[2], p[0], edge[2], o);
-    halve(frame, p[0], m, p[1], edge[0], &am, &mb);
-    halve(frame, p[1], n, p[2], edge[1], &bn, &nc);
-    halve(frame, p[2], o, p[0], edge[2], &co, &oa);
-    const bool ask = (edge[0] | edge[1] | edge[2]) >= REFINE_AGAIN;
-    const yb_edge_t on = inner_edge(frame, o, n, edge[0], ask) & inside;
-    const yb_edge_t mo = inner_edge(frame, m, o, edge[1], ask) & inside;
-    const yb_edge_t mn = inner_edge(frame, m, n, edge[2], ask) & inside;
-    const yb_part_t with_a = {{p[0], m, o}, {am, mo, oa}, {eye[0] - half, eye[1], eye[2]}, bulge};
-    const yb_part_t with_c = {{n, p[2], o}, {nc, co, on}, {eye[1], eye[2] - half, eye[0]}, bulge};
-    const yb_part_t middle = {
-        {m, n, o}, {mn, on, mo}, {half - eye[2], half - eye[0], half - eye[1]}, bulge};
-    level[0].rest = (yb_part_t){{m, p[1], n}, {mb, bn, mn}, {eye[0], eye[1] - half, eye[2]}, bulge};
-    const bool a_first = eye[0] > half;
-    const bool c_first = eye[2] > half;
-    *part = a_first ? with_a : c_first ? with_c : middle;
-    level[2].rest = a_first ? (c_first ? with_c : middle) : (c_first ? middle : with_a);
-    level[1].rest = a_first ? (c_first ? middle : with_c) : (c_first ? with_a : with_c);
+    refine_middle(frame, view, a, b, ab, m);
+    refine_middle(frame, view, b, c, bc, n);
+    refine_middle(frame, view, c, a, ca, o);
+    halve(frame, a, m, b, ab, &am, &mb);
+    halve(frame, b, n, c, bc, &bn, &nc);
+    halve(frame, c, o, a, ca, &co, &oa);
+    const bool ask = (ab | bc | ca) >= REFINE_AGAIN;
+    const yb_edge_t on = inner_edge(frame, o, n, ab, ask) & inside;
+    const yb_edge_t mo = inner_edge(frame, m, o, bc, ask) & inside;
+    const yb_edge_t mn = inner_edge(frame, m, n, ca, ask) & inside;
+    const bool a_first = eye_a > half;
+    const bool c_first = eye_c > half;
+    yb_part_t *const second = &level[2].rest;
+    yb_part_t *const third = &level[1].rest;
+    yb_part_t *const with_a = a_first ? part : c_first ? third : second;
+    yb_part_t *const with_c = !c_first ? third : a_first ? second : part;
+    yb_part_t *const middle = a_first != c_first ? second : a_first ? third : part;
+    *with_a = (yb_part_t){{a, m, o}, {am, mo, oa}, {eye_a - half, eye_b, eye_c}, bulge};
+    *with_c = (yb_part_t){{n, c, o}, {nc, co, on}, {eye_b, eye_c - half, eye_a}, bulge};
+    *middle =
+        (yb_part_t){{m, n, o}, {mn, on, mo}, {half - eye_c, half - eye_a, half - eye_b}, bulge};
+    level[0].rest = (yb_part_t){{m, b, n}, {mb, bn, mn}, {eye_a, eye_b - half, eye_c}, bulge};
     return level + 3;
 }
 
