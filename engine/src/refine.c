@@ -88,11 +88,10 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     return edge < REFINE_ONCE ? edge : edge | (yb_edge_t)(relief_class(dx, dy) + 4) << 16;
 }
 
-/* Each half's mean of two numbers, rounded down. */
-static inline uint32_t mean2(uint32_t a, uint32_t b)
-{
-    return (a & b) + ((a ^ b) >> 1 & 0x7fff7fff);
-}
+/* A place on the screen, 1/16 pixel, and 1/depth there. */
+typedef struct {
+    int32_t x_q4, y_q4, near;
+} seen_t;
 
 /* The sides of the view that a place on the screen is beyond: of most, none. */
 static inline uint8_t out_of(const refine_view_t *view, int32_t x_q4, int32_t y_q4)
@@ -113,70 +112,110 @@ static inline void set_out(const refine_view_t *view, yb_spot_t *spot)
     spot->out = spot->near == 0 ? REFINE_NOWHERE : out_of(view, spot->x_q4, spot->y_q4);
 }
 
-/* Between the ends' spots, and up by the rise: half way, or as the eye sees it where one end is
- * much nearer. False: the rise changes the depth too much for that, or it comes to lie more than a
- * screen size off.
- *
- * With 1/depth w of the nearer end and v of the other, that is v / (v + w) of the way back from the
+/* Apart from what is done to nearly all midpoints, which wants the registers. */
+#if defined(__GNUC__)
+#define APART static __attribute__((noinline))
+#else
+#define APART static
+#endif
+
+/* Looks at a point for which there is no shorter way. */
+APART void look(const yb_frame_t *frame, const refine_view_t *view, yb_point_t *point)
+{
+    camera_see(frame, point);
+    set_out(view, &point->spot);
+}
+
+/* Where the middle of an edge is seen whose one end is much nearer, before it is moved: with
+ * 1/depth w of the nearer end and v of the other, that is v / (v + w) of the way back from the
  * farther end, at most a half, by a table's reciprocal of 15 bits of the sum. The way on the screen
  * is below 3 * 16 * YB_MAX_SIDE + 80 < 2^18, and times 2^13 below 2^31.
  */
-static inline bool see_middle(const yb_frame_t *frame, const refine_view_t *view,
-                              const yb_point_t *a, const yb_point_t *b, yb_edge_t edge,
-                              int32_t rise, yb_spot_t *middle)
+static inline seen_t see_between(const yb_spot_t *far, const yb_spot_t *close)
 {
-    const yb_spot_t *far = &a->spot;
-    const yb_spot_t *close = &b->spot;
-    int32_t near = ((int32_t)far->near + close->near) >> 1;
-    int32_t x = ((int32_t)far->x_q4 + close->x_q4) >> 1;
-    int32_t y = ((int32_t)far->y_q4 + close->y_q4) >> 1;
-    if (edge >= REFINE_AGAIN && far->near != close->near) {
-        if (far->near > close->near) {
-            far = close;
-            close = &a->spot;
-        }
-        uint32_t sum = (uint32_t)far->near + close->near;
-        int shift = fix_log2_floor(sum) - 14;
-        sum = shift >= 0 ? sum >> shift : sum << -shift;
-        int32_t way_q14 = far->near * fix_reciprocal((int32_t)sum) >> (15 + shift);
-        near = close->near * way_q14 >> 13;
-        x = far->x_q4 + (((int32_t)close->x_q4 - far->x_q4) * way_q14 >> 14);
-        y = far->y_q4 + (((int32_t)close->y_q4 - far->y_q4) * way_q14 >> 14);
+    if (far->near > close->near) {
+        const yb_spot_t *other = far;
+        far = close;
+        close = other;
     }
-    int32_t turn = rise * near; /* below 2^30 */
-    if (fix_abs(turn) > frame->most_bend)
+    const uint32_t sum = (uint32_t)far->near + close->near;
+    const int shift = 31 - fix_log2_floor(sum); /* 14 or more */
+    const int32_t inverse = fix_reciprocal_here((int32_t)(sum << shift >> 17));
+    const int32_t way_q14 = far->near * inverse >> (32 - shift);
+    return (seen_t){
+        .x_q4 = far->x_q4 + (((int32_t)close->x_q4 - far->x_q4) * way_q14 >> 14),
+        .y_q4 = far->y_q4 + (((int32_t)close->y_q4 - far->y_q4) * way_q14 >> 14),
+        .near = close->near * way_q14 >> 13,
+    };
+}
+
+/* The spot of a midpoint between the ends' spots, and up by the rise: half way, or as the eye sees
+ * it where one end is much nearer. False: the rise changes the depth too much for that, or it comes
+ * to lie more than a screen size off.
+ */
+static inline bool see_middle(const yb_frame_t *frame, const refine_view_t *view,
+                              const yb_spot_t *a, const yb_spot_t *b, yb_edge_t edge, int32_t rise,
+                              yb_spot_t *middle)
+{
+    seen_t seen;
+    if (edge < REFINE_AGAIN || a->near == b->near)
+        seen = (seen_t){((int32_t)a->x_q4 + b->x_q4) >> 1, ((int32_t)a->y_q4 + b->y_q4) >> 1,
+                        ((int32_t)a->near + b->near) >> 1};
+    else
+        seen = see_between(a, b);
+    const int32_t turn = rise * seen.near; /* at most 2^30 */
+    if ((uint32_t)(turn + frame->most_bend) > 2 * (uint32_t)frame->most_bend)
         return false;
-    y -= (turn >> 10) * frame->lift >> frame->lift_shift;
-    uint32_t high = frame->screen.height * (uint32_t)16;
-    if ((uint32_t)y + high > 3 * high)
-        return false;
-    middle->x_q4 = (yb_side_t)x;
-    middle->y_q4 = (yb_side_t)y;
-    middle->near = (uint16_t)near;
-    middle->out = out_of(view, x, y);
+    seen.y_q4 -= (turn >> 10) * frame->lift >> frame->lift_shift;
+    const int out = out_of(view, seen.x_q4, seen.y_q4);
+    if ((out & (REFINE_ABOVE | REFINE_BELOW)) != 0) {
+        const uint32_t high = frame->screen.height * (uint32_t)16;
+        if ((uint32_t)seen.y_q4 + high > 3 * high)
+            return false;
+    }
+    middle->x_q4 = (yb_side_t)seen.x_q4;
+    middle->y_q4 = (yb_side_t)seen.y_q4;
+    middle->near = (uint16_t)seen.near;
+    middle->out = (uint8_t)out;
     return true;
+}
+
+/* The rough part at a midpoint that is `half` from an end. */
+static inline int32_t rough(const yb_frame_t *frame, uint32_t middle, uint32_t half, yb_edge_t edge,
+                            int32_t rise)
+{
+    const int class = refine_class(edge);
+    const int32_t scale = frame->noise[class];
+    const int32_t noise = relief_shake(scale, middle, frame->salt);
+    if (relief_keeps_all(scale, class, rise) || relief_keeps(noise, class, rise))
+        return noise;
+    return relief_limit(noise, 2 * relief_way_x(half), 2 * relief_way_y(half), rise);
 }
 
 void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
                    const yb_point_t *b, yb_edge_t edge, yb_point_t *middle)
 {
-    const yb_map_t *map = frame->map;
-    int32_t dx = relief_dx(a->place, b->place);
-    int32_t dy = relief_dy(a->place, b->place);
+    const uint32_t from = a->place;
+    const uint32_t place = relief_half_way(from, b->place);
+    const uint32_t half = place - from;
+    const uint32_t slope = b->slope;
+    const uint32_t bend = a->slope - slope;
+    const int32_t bend_x = relief_way_x(bend);
+    const int32_t bend_y = relief_way_y(bend);
+    middle->place = place;
+    middle->slope = slope + (uint32_t)(bend_x >> 1) + ((uint32_t)(bend_y >> 1) << 16);
     int32_t z = (a->z_q8 + b->z_q8) >> 1;
-    if (map->smooth)
-        z += relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope), dx, dy);
-    middle->place = mean2(a->place, b->place);
-    middle->slope = mean2(a->slope, b->slope);
-    z += relief_rough(map, middle->place, refine_class(edge), dx, dy, b->z_q8 - a->z_q8);
+    if (frame->smooth)
+        z += relief_half_bulge(bend_x, bend_y, relief_way_x(half), relief_way_y(half));
+    if (frame->noise != NULL)
+        z += rough(frame, place, half, edge, b->z_q8 - a->z_q8);
+    const int32_t top = fix_max(z, frame->view.water_q8);
     middle->z_q8 = z;
-    middle->top_q8 = fix_max(z, frame->view.water_q8);
-    int32_t rise = middle->top_q8 - ((a->top_q8 + b->top_q8) >> 1);
-    if (a->spot.near != 0 && b->spot.near != 0 && fix_abs(rise) < 1 << 14 &&
-        see_middle(frame, view, a, b, edge, rise, &middle->spot))
-        return;
-    camera_see(frame, middle);
-    set_out(view, &middle->spot);
+    middle->top_q8 = top;
+    const int32_t rise = top - ((a->top_q8 + b->top_q8) >> 1);
+    if (a->spot.near == 0 || b->spot.near == 0 || (uint32_t)(rise + (1 << 14)) >= 2 << 14 ||
+        !see_middle(frame, view, &a->spot, &b->spot, edge, rise, &middle->spot))
+        look(frame, view, middle);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */

@@ -26,7 +26,13 @@ yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge)
                                : (edge & 0xffff) | (yb_edge_t)(class + 4) << 16 | REFINE_ONCE;
 }
 
-const refine_view_t plain_view = {-(1 << 20), -(1 << 20), 1 << 21, 1 << 21, {{0, 0, 0, 0, 0}}};
+const refine_view_t *plain_view(const yb_frame_t *frame)
+{
+    static refine_view_t view;
+    const uint32_t high = frame->screen.height * (uint32_t)16;
+    view = (refine_view_t){-(1 << 20), -(int32_t)high, 1 << 21, 3 * high + 1, {{0, 0, 0, 0, 0}}};
+    return &view;
+}
 
 /* With twice the room that its relief may need. Without this all that lies behind the eye would be
  * refined as if it touched it.
@@ -69,10 +75,10 @@ uint32_t plain_leaves(const yb_frame_t *frame, plain_leaf_fn fn, void *context)
 {
     static yb_frame_t copy; /* for its roots */
     copy = *frame;
-    walk_t at = {frame, &plain_view, fn, context, 0};
+    walk_t at = {frame, plain_view(frame), fn, context, 0};
     for (int t = 0; t < frame->map->triangle_count; t++) {
         yb_part_t root;
-        refine_root(&copy, &plain_view, (yb_triangle_t)t, &root);
+        refine_root(&copy, plain_view(frame), (yb_triangle_t)t, &root);
         walk(&at, root, 0);
     }
     return at.count;
@@ -111,7 +117,7 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
         cells_clear(&drawing.raster, y, colour_sky(frame, y));
     (void)plain_leaves(frame, draw_leaf, &drawing);
     if (frame->view.walls)
-        walls_draw(frame, &plain_view, &drawing.raster);
+        walls_draw(frame, plain_view(frame), &drawing.raster);
     for (int32_t y = 0; y < frame->screen.height; y++)
         cells_show(&drawing.raster, y);
 }
