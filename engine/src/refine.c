@@ -180,16 +180,23 @@ static inline bool see_middle(const yb_frame_t *frame, const refine_view_t *view
     return true;
 }
 
-/* The rough part at a midpoint that is `half` from an end. */
-static inline int32_t rough(const yb_frame_t *frame, uint32_t middle, uint32_t half, yb_edge_t edge,
-                            int32_t rise)
+/* What gravity leaves of the noise at the midpoint of the edge ab of a class. */
+static inline int32_t limited(int32_t noise, int class, const yb_point_t *a, const yb_point_t *b)
+{
+    const int32_t rise = b->z_q8 - a->z_q8;
+    if (relief_keeps(noise, class, rise))
+        return noise;
+    return relief_limit(noise, relief_dx(a->place, b->place), relief_dy(a->place, b->place), rise);
+}
+
+/* The rough part at the midpoint of the edge ab that lies at a place. */
+static inline int32_t rough(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                            yb_edge_t edge, uint32_t place)
 {
     const int class = refine_class(edge);
     const int32_t scale = frame->noise[class];
-    const int32_t noise = relief_shake(scale, middle, frame->salt);
-    if (relief_keeps_all(scale, class, rise) || relief_keeps(noise, class, rise))
-        return noise;
-    return relief_limit(noise, 2 * relief_way_x(half), 2 * relief_way_y(half), rise);
+    const int32_t noise = relief_shake(scale, place, frame->salt);
+    return relief_keeps_all(scale, class, b->z_q8 - a->z_q8) ? noise : limited(noise, class, a, b);
 }
 
 void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
@@ -208,7 +215,7 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
     if (frame->smooth)
         z += relief_half_bulge(bend_x, bend_y, relief_way_x(half), relief_way_y(half));
     if (frame->noise != NULL)
-        z += rough(frame, place, half, edge, b->z_q8 - a->z_q8);
+        z += rough(frame, a, b, edge, place);
     const int32_t top = fix_max(z, frame->view.water_q8);
     middle->z_q8 = z;
     middle->top_q8 = top;
