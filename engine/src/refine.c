@@ -8,6 +8,13 @@
 #include "relief.h"
 #include "shade.h"
 
+/* Apart from what is done to nearly all edges and midpoints, which wants the registers. */
+#if defined(__GNUC__)
+#define APART static __attribute__((noinline))
+#else
+#define APART static
+#endif
+
 /* --- Edges ------------------------------------------------------------------------------------ */
 
 static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)
@@ -16,22 +23,52 @@ static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)
                         relief_dx(a->place, b->place), relief_dy(a->place, b->place));
 }
 
-/* Under water all along, however it is refined? Then it is seen as a straight line on a plane. */
-static bool drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+/* An edge, left whole if it is under water all along, however it is refined: then it is seen as a
+ * straight line on a plane.
+ */
+APART yb_edge_t unless_drowned(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                               yb_edge_t edge)
 {
     int32_t rise = fix_abs(bulge_of(a, b));
     int class = relief_class(relief_dx(a->place, b->place), relief_dy(a->place, b->place));
     const relief_bound_t bound = {rise + (rise >> 1) + 16, class};
-    return fix_max(a->z_q8, b->z_q8) + relief_reach(frame->map, &bound, 0) < frame->view.water_q8;
+    int32_t most = fix_max(a->z_q8, b->z_q8) + relief_reach(frame->map, &bound, 0);
+    return most < frame->view.water_q8 ? edge & 0xffffff : edge;
 }
 
-/* The nearest of an edge's ends, as 1/depth. Beyond the near distance, for what is behind it. */
-static int32_t nearest(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+static inline yb_edge_t unless_under_water(const yb_frame_t *frame, const yb_point_t *a,
+                                           const yb_point_t *b, yb_edge_t edge)
+{
+    const int32_t water = frame->view.water_q8;
+    if (a->z_q8 < water && b->z_q8 < water && frame->even_water)
+        return unless_drowned(frame, a, b, edge);
+    return edge;
+}
+
+/* Of the differences of an edge's ends: the lowest bit says whether it cannot be split, the next
+ * one whether its halves cannot, and so on.
+ */
+static inline uint32_t parity_of(const yb_point_t *a, const yb_point_t *b)
+{
+    const uint32_t parity = a->place ^ b->place;
+    return parity | parity >> 16;
+}
+
+/* An edge of which not both ends have a spot. The nearer of them counts, as 1/depth, beyond the
+ * near distance for what is behind it.
+ */
+APART yb_edge_t ask_unseen(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                           yb_edge_t edge)
 {
     camera_point_t at[2];
+    if ((parity_of(a, b) & 1) != 0)
+        return edge;
     camera_view(frame, a->place, a->top_q8, &at[0]);
     camera_view(frame, b->place, b->top_q8, &at[1]);
-    return camera_near(frame, fix_max(fix_min(at[0].depth, at[1].depth), frame->near));
+    const int32_t depth = fix_max(fix_min(at[0].depth, at[1].depth), frame->near);
+    if ((edge & 0xffff) * (uint32_t)camera_near(frame, depth) <= frame->longest)
+        return edge;
+    return unless_under_water(frame, a, b, edge | REFINE_AGAIN);
 }
 
 /* Length and 1/depth have 16 bits each. With 1/depth from v to w > v, the middle of an edge of s
@@ -42,30 +79,29 @@ static int32_t nearest(const yb_frame_t *frame, const yb_point_t *a, const yb_po
 yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                      yb_edge_t edge)
 {
-    int32_t change = fix_abs(fix_minus(a->spot.near, b->spot.near));
-    int32_t near = fix_max(a->spot.near, b->spot.near);
-    bool seen = change < near;
-    if (!seen)
-        near = nearest(frame, a, b);
+    const int32_t a_near = a->spot.near;
+    const int32_t b_near = b->spot.near;
     edge &= 0xffffff;
+    if (a_near == 0 || b_near == 0)
+        return ask_unseen(frame, a, b, edge);
+    const int32_t change = fix_abs(a_near - b_near);
+    const int32_t near = fix_max(a_near, b_near);
     uint32_t size = (edge & 0xffff) * (uint32_t)near;
-    if (size <= frame->longest)
+    uint32_t parity = parity_of(a, b);
+    if (size <= frame->longest || (parity & 1) != 0)
         return edge;
-    uint32_t parity = a->place ^ b->place;
-    parity |= parity >> 16;
-    if ((parity & 1) != 0 ||
-        (frame->even_water && fix_max(a->z_q8, b->z_q8) < frame->view.water_q8 &&
-         drowned(frame, a, b)))
-        return edge;
-    if (!seen || change << 2 > near) /* or there are no spots */
-        return edge | REFINE_AGAIN;
-    int32_t wide = fix_abs((int32_t)a->spot.x_q4 - b->spot.x_q4);
-    int32_t high = fix_abs((int32_t)a->spot.y_q4 - b->spot.y_q4);
-    if ((fix_max(wide, high) >> 4) * change > 4 * near)
-        return edge | REFINE_AGAIN;
-    for (; size > frame->longest && (parity & 1) == 0; size >>= 1, parity >>= 1)
-        edge += REFINE_ONCE;
-    return edge;
+    const int32_t wide = fix_abs((int32_t)a->spot.x_q4 - b->spot.x_q4);
+    const int32_t high = fix_abs((int32_t)a->spot.y_q4 - b->spot.y_q4);
+    if (change << 2 > near || (fix_max(wide, high) >> 4) * change > 4 * near) {
+        edge |= REFINE_AGAIN;
+    } else {
+        do {
+            edge += REFINE_ONCE;
+            size >>= 1;
+            parity >>= 1;
+        } while (size > frame->longest && (parity & 1) == 0);
+    }
+    return unless_under_water(frame, a, b, edge);
 }
 
 /* Is an edge of this length left whole, as most are, by its nearer end? */
@@ -111,13 +147,6 @@ static inline void set_out(const refine_view_t *view, yb_spot_t *spot)
 {
     spot->out = spot->near == 0 ? REFINE_NOWHERE : out_of(view, spot->x_q4, spot->y_q4);
 }
-
-/* Apart from what is done to nearly all midpoints, which wants the registers. */
-#if defined(__GNUC__)
-#define APART static __attribute__((noinline))
-#else
-#define APART static
-#endif
 
 /* Looks at a point for which there is no shorter way. */
 APART void look(const yb_frame_t *frame, const refine_view_t *view, yb_point_t *point)
@@ -317,8 +346,7 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     yb_edge_t mc = refine_half(bc);
     if (bc >= REFINE_AGAIN) /* unless the half is so short that it has no class */
         return refine_class(mc) >= 0 ? ask_anew(frame, m, c, mc) : mc & 0xffffff;
-    uint32_t parity = m->place ^ c->place;
-    parity |= parity >> 16;
+    const uint32_t parity = parity_of(m, c);
     int often = 0;
     while (often < (int)(mc >> 24) && (parity >> often & 1) == 0)
         often++;
