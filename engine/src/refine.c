@@ -19,8 +19,9 @@
 
 static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)
 {
-    return relief_bulge(relief_dx(b->slope, a->slope), relief_dy(b->slope, a->slope),
-                        relief_dx(a->place, b->place), relief_dy(a->place, b->place));
+    const uint32_t bend = a->slope - b->slope;
+    return relief_bulge(relief_way_x(bend), relief_way_y(bend), relief_dx(a->place, b->place),
+                        relief_dy(a->place, b->place));
 }
 
 /* An edge, left whole if it is under water all along, however it is refined: then it is seen as a
@@ -121,7 +122,12 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
     yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)fix_length(across, along));
-    return edge < REFINE_ONCE ? edge : edge | (yb_edge_t)(relief_class(dx, dy) + 4) << 16;
+    if (edge < REFINE_ONCE)
+        return edge;
+    dx >>= 1; /* both are even: relief_class without signs */
+    dy >>= 1;
+    const uint32_t square = (uint32_t)(dx * dx) + (uint32_t)(dy * dy);
+    return edge | (yb_edge_t)(relief_square_class(square) + 4) << 16;
 }
 
 /* A place on the screen, 1/16 pixel, and 1/depth there. */
