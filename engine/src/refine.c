@@ -224,14 +224,14 @@ static inline int32_t limited(int32_t noise, int class, const yb_point_t *a, con
     return relief_limit(noise, relief_dx(a->place, b->place), relief_dy(a->place, b->place), rise);
 }
 
-/* The rough part at the midpoint of the edge ab that lies at a place. */
+/* The rough part at the midpoint of the edge ab that lies at a place and rises by so much. */
 static inline int32_t rough(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
-                            yb_edge_t edge, uint32_t place)
+                            yb_edge_t edge, uint32_t place, int32_t rise)
 {
     const int class = refine_class(edge);
     const int32_t scale = frame->noise[class];
     const int32_t noise = relief_shake(scale, place, frame->salt);
-    return relief_keeps_all(scale, class, b->z_q8 - a->z_q8) ? noise : limited(noise, class, a, b);
+    return relief_keeps_all(scale, class, rise) ? noise : limited(noise, class, a, b);
 }
 
 void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
@@ -244,13 +244,14 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
     const uint32_t bend = a->slope - slope;
     const int32_t bend_x = relief_way_x(bend);
     const int32_t bend_y = relief_way_y(bend);
-    middle->place = place;
     middle->slope = slope + (uint32_t)(bend_x >> 1) + ((uint32_t)(bend_y >> 1) << 16);
-    int32_t z = (a->z_q8 + b->z_q8) >> 1;
+    middle->place = place;
+    const int32_t up = b->z_q8 - a->z_q8;
+    int32_t z = a->z_q8 + (up >> 1);
     if (frame->smooth)
         z += relief_half_bulge(bend_x, bend_y, relief_way_x(half), relief_way_y(half));
     if (frame->noise != NULL)
-        z += rough(frame, a, b, edge, place);
+        z += rough(frame, a, b, edge, place, up);
     const int32_t top = fix_max(z, frame->view.water_q8);
     middle->z_q8 = z;
     middle->top_q8 = top;
