@@ -215,7 +215,9 @@ static inline bool see_middle(const yb_frame_t *frame, const refine_view_t *view
     return true;
 }
 
-/* What gravity leaves of the noise at the midpoint of the edge ab of a class. */
+/* What gravity leaves of the noise at the midpoint of the edge ab. The class may be greater than
+ * its own, as that of half another edge (cross_edge): what keeps to that is left.
+ */
 static inline int32_t limited(int32_t noise, int class, const yb_point_t *a, const yb_point_t *b)
 {
     const int32_t rise = b->z_q8 - a->z_q8;
@@ -256,7 +258,8 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
     middle->z_q8 = z;
     middle->top_q8 = top;
     const int32_t rise = top - ((a->top_q8 + b->top_q8) >> 1);
-    if (a->spot.near == 0 || b->spot.near == 0 || (uint32_t)(rise + (1 << 14)) >= 2 << 14 ||
+    if (a->spot.near == 0 || b->spot.near == 0 ||
+        (uint32_t)(rise + (1 << 14)) >= (uint32_t)1 << 15 ||
         !see_middle(frame, view, &a->spot, &b->spot, edge, rise, &middle->spot))
         look(frame, view, middle);
 }
