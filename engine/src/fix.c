@@ -105,11 +105,7 @@ uint32_t fix_share(uint64_t a, uint32_t b, uint32_t most)
 
 int32_t fix_reciprocal(int32_t a)
 {
-    /* The top 6 bits after the leading one look up, the other 8 interpolate: the chord lies up to
-     * h^2/8 f'' = 2^13 2^-12 = 2 above the curve, and the table up to 2 below. */
-    const uint16_t *inverse = &fix_small_inverses[(a >> 8) - 17];
-    int32_t low = 2 * yb_rom_u16(inverse);
-    return low - (((low - 2 * yb_rom_u16(inverse + 1)) * (a & 255)) >> 8);
+    return fix_reciprocal_here(a);
 }
 
 uint32_t fix_sqrt(uint64_t a)

@@ -116,6 +116,9 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     int32_t stray = farthest_stray(frame);
     camera_begin(frame, stray);
     begin_lines(frame, stray);
+    frame->smooth = map->smooth;
+    frame->noise = map->detail ? map->noise : NULL;
+    frame->salt = relief_salt(map->seed);
     frame->even_water = view->shadow == NULL && view->haze_q8 <= 0 && !view->lamp;
     colour_begin(frame);
     frame->row_shift = 0;

@@ -71,8 +71,8 @@ enum {
     HIDDEN = 8
 };
 
-static uint8_t look_beside(const yb_frame_t *frame, int which, const yb_index_t *corner,
-                           yb_across_t across)
+static uint8_t hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
+                        yb_across_t across)
 {
     unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
@@ -97,7 +97,7 @@ static bool sort(yb_frame_t *frame, int which)
     uint8_t *const known = frame->bins; /* not in use yet */
     yb_triangle_t ready = 0;
     for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
-        known[t] = look_beside(frame, which, corner, across[t]);
+        known[t] = hides_of(frame, which, corner, across[t]);
         if (known[t] < HIDDEN)
             order[ready++] = t;
     }

@@ -55,7 +55,7 @@ typedef struct {
     int32_t lift_q9; /* what one unit of height changes, at most */
 } refine_plane_t;
 
-/* Some rows of the screen: as a box on it, and as a pyramid. */
+/* Some rows of the screen: as a box on it, and as a pyramid. What is in the box has a spot. */
 typedef struct {
     int32_t left_q4, top_q4;   /* what is not in the box from here on … */
     uint32_t wide_q4, high_q4; /* … so wide and high draws nothing */

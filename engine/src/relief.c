@@ -64,7 +64,8 @@ void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t 
     if (map->smooth)
         middle->z_q8 += edge.bulge;
     if (map->detail) {
-        int32_t noise = relief_shake(map, relief_place(middle), relief_class(edge.dx, edge.dy));
+        int32_t noise = relief_shake(map->noise[relief_class(edge.dx, edge.dy)],
+                                     relief_place(middle), relief_salt(map->seed));
         middle->z_q8 += relief_limit(noise, edge.dx, edge.dy, rise);
     }
 }

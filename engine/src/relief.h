@@ -46,6 +46,25 @@ static inline int32_t relief_dy(uint32_t a, uint32_t b)
     return (int32_t)(b >> 16) - (int32_t)(a >> 16);
 }
 
+/* A place less another, or a slope less another, as one number: the difference of their lower
+ * halves and 2^16 that of the upper ones. Where both differences have 16 bits these are they.
+ */
+static inline int32_t relief_way_x(uint32_t way)
+{
+    return (int16_t)way;
+}
+
+static inline int32_t relief_way_y(uint32_t way)
+{
+    return (int32_t)(way - (uint32_t)relief_way_x(way)) >> 16;
+}
+
+/* The place of the midpoint of an edge that can be split: both differences are even. */
+static inline uint32_t relief_half_way(uint32_t a, uint32_t b)
+{
+    return (a & b) + ((a ^ b) >> 1);
+}
+
 /* Noise of a place: the sum of the four bytes of a hash of where it is, less its mean. Nearly
  * Gaussian; its tails are cut, because bounds on what refinement can do are what makes bands cheap.
  */
@@ -55,15 +74,34 @@ enum {
     RELIEF_NOISE_SHIFT = 9
 };
 
-static inline int32_t relief_noise(uint32_t place, uint8_t seed)
+/* What a map's seed adds to its places. */
+static inline uint32_t relief_salt(uint8_t seed)
 {
-    uint32_t h = place + (seed + (uint32_t)1) * 0x9e3779b9u;
-    h = (h ^ h >> 16) * 0x7feb352du;
+    return (seed + (uint32_t)1) * 0x9e3779b9u;
+}
+
+/* A number that nothing is known of: else gcc makes the second factor below from the first one, in
+ * three instructions where it can load it in one.
+ */
+static inline uint32_t relief_held(uint32_t a)
+{
+#if defined(__GNUC__) && defined(__thumb2__)
+    __asm__("" : "+r"(a));
+#endif
+    return a;
+}
+
+static inline int32_t relief_noise(uint32_t place, uint32_t salt)
+{
+    uint32_t h = place + salt;
+    h = (h ^ h >> 16) * relief_held(0x7feb352du);
     h = (h ^ h >> 15) * 0x846ca68bu;
     h ^= h >> 16;
     h = (h & 0xff00ff) + (h >> 8 & 0xff00ff); /* two sums of two bytes */
-    return fix_clamp((int32_t)((h & 0xffff) + (h >> 16)) - RELIEF_HASH_MEAN, -RELIEF_HASH_MOST,
-                     RELIEF_HASH_MOST);
+    int32_t noise = (int32_t)((h & 0xffff) + (h >> 16)) - RELIEF_HASH_MEAN;
+    if ((uint32_t)(noise + RELIEF_HASH_MOST) > 2 * RELIEF_HASH_MOST)
+        noise = noise < 0 ? -RELIEF_HASH_MOST : RELIEF_HASH_MOST;
+    return noise;
 }
 
 /* The smooth part: half way between the ends, on the parabola that has their slopes, which differ
@@ -73,6 +111,13 @@ static inline int32_t relief_noise(uint32_t place, uint8_t seed)
 static inline int32_t relief_bulge(int32_t bend_x, int32_t bend_y, int32_t dx, int32_t dy)
 {
     return (bend_x * dx + bend_y * dy + (1 << 13)) >> 14; /* slope 11 bits, and an eighth */
+}
+
+/* The same by the way from an end to the midpoint: dx and dy are even. */
+static inline int32_t relief_half_bulge(int32_t bend_x, int32_t bend_y, int32_t half_x,
+                                        int32_t half_y)
+{
+    return (bend_x * half_x + bend_y * half_y + (1 << 12)) >> 13;
 }
 
 /* Gravity (paper, 3.3): no half edge may become steeper than 2 by its noise; a chord that already
@@ -87,25 +132,27 @@ static inline int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_
 /* The noise at a midpoint of an edge of a class: scale < 2^16, noise within 2^9, so the product is
  * within 2^25.
  */
-static inline int32_t relief_shake(const yb_map_t *map, uint32_t middle, int class)
+static inline int32_t relief_shake(int32_t scale, uint32_t middle, uint32_t salt)
 {
-    int32_t noise = map->noise[class] * relief_noise(middle, map->seed);
+    int32_t noise = scale * relief_noise(middle, salt);
     return (noise + (1 << (RELIEF_NOISE_SHIFT - 1))) >> RELIEF_NOISE_SHIFT;
 }
 
-/* The rough part at a midpoint of an edge with this class, these differences and this rise. */
-static inline int32_t relief_rough(const yb_map_t *map, uint32_t middle, int class, int32_t dx,
-                                   int32_t dy, int32_t rise)
+/* Is noise within its limit whatever the edge, of those of a class? Nearly always: none is shorter
+ * than twice the root of its squared half length, which is at least 2^(class / 2), and fix_length
+ * is at most 2.8 % and 1 below that: at least 31/16 2^(class / 4) - 1.
+ */
+static inline bool relief_keeps(int32_t noise, int class, int32_t rise)
 {
-    if (!map->detail)
-        return 0;
-    int32_t noise = relief_shake(map, middle, class);
-    /* Nearly always well within its limit: no edge of a class is shorter than twice the root of its
-     * squared half length, which is at least 2^(class / 2), and fix_length is at most 2.8 % and 1
-     * below that: at least 31/16 2^(class / 4) - 1. */
-    if (fix_abs(noise) + (fix_abs(rise) >> 1) <= ((int32_t)31 << (class >> 2) >> 4) - 1)
-        return noise;
-    return relief_limit(noise, dx, dy, rise);
+    return fix_abs(noise) + (fix_abs(rise) >> 1) <= ((int32_t)31 << (class >> 2) >> 4) - 1;
+}
+
+/* And is all noise of this scale? At most that it is, as RELIEF_HASH_MOST is below
+ * 2^RELIEF_NOISE_SHIFT; rise ^ rise >> 31 is |rise| or one less, and its half at most one less.
+ */
+static inline bool relief_keeps_all(int32_t scale, int class, int32_t rise)
+{
+    return (scale + ((rise ^ rise >> 31) >> 1)) << 4 <= ((int32_t)31 << (class >> 2)) - 32;
 }
 
 /* The corners of a triangle. */

@@ -27,7 +27,13 @@ yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge)
                                : (edge & 0xffff) | (yb_edge_t)(class + 4) << 16 | REFINE_ONCE;
 }
 
-const refine_view_t plain_view = {-(1 << 20), -(1 << 20), 1 << 21, 1 << 21, {{0, 0, 0, 0, 0}}};
+const refine_view_t *plain_view(const yb_frame_t *frame)
+{
+    static refine_view_t view;
+    const uint32_t high = frame->screen.height * (uint32_t)16;
+    view = (refine_view_t){-(1 << 20), -(int32_t)high, 1 << 21, 3 * high + 1, {{0, 0, 0, 0, 0}}};
+    return &view;
+}
 
 /* With twice the room that its relief may need. Without this all that lies behind the eye would be
  * refined as if it touched it.
@@ -68,10 +74,10 @@ static void walk(walk_t *at, yb_part_t part, int used)
 
 uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)
 {
-    walk_t at = {frame, &plain_view, fn, context, 0};
+    walk_t at = {frame, plain_view(frame), fn, context, 0};
     for (int i = 0; i < frame->map->triangle_count; i++) {
         yb_part_t root;
-        refine_root(frame, &plain_view, frame->order[i], &root);
+        refine_root(frame, plain_view(frame), frame->order[i], &root);
         walk(&at, root, 0);
     }
     return at.count;
@@ -121,7 +127,7 @@ void plain_frame(yb_frame_t *frame, const yb_band_t *band)
         raster->end_row = order_rows(frame, y, height);
         frame->binned = false;
         if (frame->view.walls)
-            walls_draw(frame, &plain_view, raster);
+            walls_draw(frame, plain_view(frame), raster);
         (void)plain_ordered(frame, draw_leaf, &drawing);
     }
     for (int32_t y = 0; y < height; y++)

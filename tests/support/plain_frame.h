@@ -25,8 +25,8 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part);
 /* The edge ab, as one that is split: at least once. */
 yb_edge_t plain_split(const yb_point_t *a, const yb_point_t *b, yb_edge_t edge);
 
-/* A view that nothing is out of. */
-extern const refine_view_t plain_view;
+/* A view that nothing is out of that has a spot. */
+const refine_view_t *plain_view(const yb_frame_t *frame);
 
 /* Draws all rows of a frame that has begun. */
 void plain_frame(yb_frame_t *frame, const yb_band_t *band);

@@ -47,8 +47,8 @@ static void check_edge(const yb_point_t *a, const yb_point_t *b)
         there = (plain_split(a, b, there) & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
         memset(&forth_middle, 0, sizeof forth_middle);
         memset(&back_middle, 0, sizeof back_middle);
-        refine_middle(&frame, &plain_view, a, b, there, &forth_middle);
-        refine_middle(&frame, &plain_view, b, a, there, &back_middle);
+        refine_middle(&frame, plain_view(&frame), a, b, there, &forth_middle);
+        refine_middle(&frame, plain_view(&frame), b, a, there, &back_middle);
         assert_memory_equal(&forth_middle, &back_middle, sizeof forth_middle);
     }
 }
@@ -69,7 +69,7 @@ static void edges_are_the_same_from_both_ends(void **state)
         (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             check_leaf(NULL, root.point);
         }
     }
@@ -84,7 +84,7 @@ static void midpoints_are_the_surfaces(void **state)
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
@@ -95,7 +95,7 @@ static void midpoints_are_the_surfaces(void **state)
                 root.edge[i] = plain_split(root.point[i], root.point[(i + 1) % 3], root.edge[i]) |
                                REFINE_AGAIN;
                 relief_middle(&map, a, b, &truth);
-                refine_middle(&frame, &plain_view, root.point[i], root.point[(i + 1) % 3],
+                refine_middle(&frame, plain_view(&frame), root.point[i], root.point[(i + 1) % 3],
                               root.edge[i], &middle);
                 assert_int_equal(middle.z_q8, truth.z_q8);
                 assert_int_equal(middle.place, relief_place(&truth));
@@ -202,7 +202,7 @@ static void check_bins(int t, yb_part_t part)
     if (!refine_splits(&part))
         return;
     yb_level_t rest[REFINE_PIECES];
-    yb_level_t *top = refine_split(&frame, &plain_view, &part, rest);
+    yb_level_t *top = refine_split(&frame, plain_view(&frame), &part, rest);
     do {
         check_bins(t, part);
     } while (refine_next(rest, &top, &part));
@@ -222,7 +222,7 @@ static void bins_hold_their_triangles(void **state)
         }
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &plain_view, (yb_triangle_t)t, &root);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             check_bins(t, root);
         }
     }

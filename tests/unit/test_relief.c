@@ -91,6 +91,45 @@ static void noise_keeps_to_the_gravity_limit(void **state)
     assert_true(limited > 1000);
 }
 
+/* What is said of all noise of a scale holds for each, at any class and rise. */
+static void noise_that_is_not_looked_at_keeps_to_its_limit(void **state)
+{
+    (void)state;
+    rng_t rng = {26};
+    int kept = 0;
+    for (int i = 0; i < 1000000; i++) {
+        int class = rng_range(&rng, 0, 61);
+        int32_t length = (int32_t)1 << (class >> 2);
+        int32_t scale = rng_range(&rng, 0, 65535) % (3 * length);
+        int32_t rise = rng_range(&rng, -4 * length, 4 * length);
+        if (!relief_keeps_all(scale, class, rise))
+            continue;
+        kept++;
+        uint32_t place = (uint32_t)rng_next(&rng);
+        assert_true(relief_keeps(relief_shake(scale, place, 0), class, rise));
+        assert_true(relief_keeps(scale, class, rise) && relief_keeps(-scale, class, rise));
+    }
+    assert_true(kept > 100000);
+}
+
+static void ways_are_differences(void **state)
+{
+    (void)state;
+    rng_t rng = {27};
+    for (int i = 0; i < 100000; i++) {
+        yb_vertex_t a = random_vertex(&rng, i % 7 == 0);
+        yb_vertex_t b = random_vertex(&rng, i % 7 == 0);
+        const uint32_t middle = relief_half_way(relief_place(&a), relief_place(&b));
+        const uint32_t half = middle - relief_place(&a);
+        assert_int_equal(2 * relief_way_x(half), b.x_q8 - a.x_q8);
+        assert_int_equal(2 * relief_way_y(half), b.y_q8 - a.y_q8);
+        const int32_t bend_x = a.gx_q11 - b.gx_q11;
+        const int32_t bend_y = a.gy_q11 - b.gy_q11;
+        assert_int_equal(relief_half_bulge(bend_x, bend_y, relief_way_x(half), relief_way_y(half)),
+                         relief_bulge(bend_x, bend_y, b.x_q8 - a.x_q8, b.y_q8 - a.y_q8));
+    }
+}
+
 /* --- The noise -------------------------------------------------------------------------------- */
 
 /* Of the sum of four bytes less its mean, cut to ±RELIEF_HASH_MOST: from its whole distribution. */
@@ -127,7 +166,7 @@ static void noise_is_centred_and_has_its_deviation(void **state)
         for (int i = 0; i < n; i++) {
             /* Neighbours on the finest lattice, row by row of a small square. */
             uint32_t place = (uint32_t)(i & 511) | (uint32_t)(i >> 9) << 16;
-            int32_t noise = relief_noise(place, map.seed);
+            int32_t noise = relief_noise(place, relief_salt(map.seed));
             assert_in_range(noise + RELIEF_HASH_MOST, 0, 2 * RELIEF_HASH_MOST);
             sum += noise;
             squares += (double)noise * noise;
@@ -150,9 +189,9 @@ static void seeds_give_different_noise(void **state)
         double squares = 0;
         for (uint32_t i = 0; i < 4096; i++) {
             map.seed = (uint8_t)(seed - 1);
-            int32_t a = relief_noise(i * 16 | (i * 112 & 0xffff) << 16, map.seed);
+            int32_t a = relief_noise(i * 16 | (i * 112 & 0xffff) << 16, relief_salt(map.seed));
             map.seed = (uint8_t)seed;
-            int32_t b = relief_noise(i * 16 | (i * 112 & 0xffff) << 16, map.seed);
+            int32_t b = relief_noise(i * 16 | (i * 112 & 0xffff) << 16, relief_salt(map.seed));
             product += (double)a * b;
             squares += (double)a * a;
         }
@@ -454,6 +493,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_midpoint_is_the_same_from_both_ends),
         cmocka_unit_test(noise_keeps_to_the_gravity_limit),
+        cmocka_unit_test(noise_that_is_not_looked_at_keeps_to_its_limit),
+        cmocka_unit_test(ways_are_differences),
         cmocka_unit_test(noise_is_centred_and_has_its_deviation),
         cmocka_unit_test(seeds_give_different_noise),
         cmocka_unit_test(a_larger_dimension_is_rougher),

@@ -589,13 +589,17 @@ typedef struct {
     uint8_t row_shift; /* rows are binned by so many bits: at most 16 bins */
     bool even_water;   /* nothing shades it: it need not be split */
     bool lines;        /* there may be any on the ground */
+    bool smooth;       /* as the map's */
     int16_t lift;      /* pixels that one unit of height rises on the screen, by 1/depth */
     yb_screen_t screen;
     const yb_map_t *map;
-    int32_t near;        /* nothing nearer is drawn: view space, q8 >> eye_shift */
-    int32_t near_scaled; /* near as 15 bits: shifted left by 10 … */
-    int32_t near_shift;  /* … and then right by so many */
-    int32_t focal_q4;    /* pixels */
+    const uint16_t *noise; /* the map's, or NULL: it has no detail … */
+    uint32_t salt;         /* … and what its seed adds to the places it is asked for */
+    int32_t most_bend;     /* height times 1/depth that changes a point's depth by a 64th */
+    int32_t near;          /* nothing nearer is drawn: view space, q8 >> eye_shift */
+    int32_t near_scaled;   /* near as 15 bits: shifted left by 10 … */
+    int32_t near_shift;    /* … and then right by so many */
+    int32_t focal_q4;      /* pixels */
     /* From the map to the view: rows right, up and depth, Q14. Places are taken relative to the
      * eye and shifted right by eye_shift, which gives them 16 bits. */
     int32_t right_x, right_y, up_x, up_y, up_z, depth_x, depth_y, depth_z;
@@ -607,7 +611,6 @@ typedef struct {
     int32_t contour_low;      /* a contour line's height below all of them, … */
     uint32_t contour_inverse; /* … and 2^20 over their interval */
     int32_t base_q8;          /* where the walls end */
-    int32_t most_bend;        /* height times 1/depth that changes a point's depth by a 64th */
     int32_t sway_x_q4; /* farthest that one unit of height moves a point on the screen, … */
     int32_t sway_y_q4; /* … by 1/depth: see refine.c */
     int32_t spare_q4;  /* what rounding in view space does at the near distance */
