@@ -113,5 +113,5 @@ uint16_t colour_sky(const yb_frame_t *frame, int32_t row)
         mixed[i] += i == 1 ? spare >> 1 : spare;
         mixed[i] = mixed[i] < 255 ? mixed[i] : 255;
     }
-    return rgb565(mixed[0], mixed[1], mixed[2]);
+    return (uint16_t)(rgb565(mixed[0], mixed[1], mixed[2]) & ~PIXELS_DRAWN);
 }

@@ -23,7 +23,7 @@ void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky)
             *at = 0;
         return;
     }
-    const uint16_t swapped = pixels_swapped((uint16_t)(sky & ~PIXELS_DRAWN));
+    const uint16_t swapped = pixels_swapped(sky);
     for (; at != end && ((uintptr_t)at & 2) != 0; at += 2)
         PIXELS_COPY(at, &swapped, 2);
     for (const uint32_t pair = swapped * (uint32_t)0x10001; end - at >= 16; at += 16) {

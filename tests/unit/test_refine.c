@@ -220,8 +220,11 @@ static void bins_hold_their_triangles(void **state)
             view.exaggerate_q8 = 2048;
             yb_frame_begin(&frame, &map, &view, &screen);
         }
+        refine_view_t whole;
+        refine_see(&frame, 0, frame.screen.height, &whole);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
+            refine_bin(&frame, &whole, (yb_triangle_t)t);
             refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             check_bins(t, root);
         }

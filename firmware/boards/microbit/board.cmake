@@ -1,6 +1,6 @@
 yb_board(boards/microbit/board.c boards/microbit/microbit.ld)
 yb_viewer(boards/microbit/main.c)
 
-# 16 KB hold the viewer's band and no more.
+# 12 KB, but for the stack.
 yb_bench(11520)
 yb_golden(8)
