@@ -33,7 +33,7 @@
 /* Places on the explicit stack that refines one base triangle: one for each edge that is split of
  * the triangles on the way down. A triangle that would need more is drawn as it is (its neighbours
  * may leave a gap there), and counted in yb_stats_t.depth_limited. 32 were enough for all orbits of
- * random maps; 1 of 200 views from the ground wanted more (tests/unit/test_frame.c). Each takes 52
+ * random maps; 1 of 200 views from the ground wanted more (tests/unit/test_frame.c). Each takes 64
  * bytes of yb_frame_t.
  */
 #ifndef YB_MAX_LEVELS
