@@ -537,9 +537,10 @@ static yb_status_t end_relief(yb_load_t *load)
     map->seed = load->recent >> 8 & 127;
     if (base_64th_m >> 22 != 0)
         return YB_ERR_CORRUPT;
+    const int count = map->vertex_count; /* signed, also where an int has 16 bits */
     load->point_count = map->vertex_count;
     /* The frame's height, those of its corners that the code has, and the points'. */
-    for (int i = -5; i < load->point_count; i++) {
+    for (int i = -5; i < count; i++) {
         int32_t *height = i == -5 ? &load->frame_height
                           : i < 0 ? &load->corner_height[i + 4]
                                   : &load->vertex[i].z_q8;
