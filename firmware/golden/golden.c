@@ -194,9 +194,8 @@ int main(void)
     report_line("size", "yb_frame_t", "", sizeof work.drawing.frame);
     report_line("stack", "load", "", load_stack);
     for (size_t k = 0; k < SETTINGS; k++) {
-        uint32_t pixel_bytes = (uint32_t)yb_screen_pitch(&settings[k].screen);
         report_line("size", "band-", settings[k].name,
-                    settings[k].rows * (settings[k].screen.width * 2u + pixel_bytes));
+                    (uint32_t)(settings[k].rows * yb_band_row_bytes(&settings[k].screen)));
         report_line("stack", "frame-", settings[k].name, frame_stack[k]);
     }
     report_text("done\r\n");

@@ -16,14 +16,14 @@ def measure_board(board):
     load_stack = max(run.stack["load"] for run in runs)
     yield "stack of loading", target, load_stack, "bytes"
     yield "stack of casting shadows", target, max(run.stack["shadows"] for run in runs), "bytes"
-    load = sizes["yb_load_t"] + load_stack
+    load = sizes["yb_map_t"] + sizes["yb_load_t"] + load_stack
     for setting in STANDARD:
-        if f"band-{setting}" not in sizes:
+        if f"piece-{setting}" not in sizes:
             continue
         frame_stack = max(run.stack[f"frame-{setting}"] for run in runs)
         yield f"stack of a frame {setting}", target, frame_stack, "bytes"
-        draw = sizes["yb_frame_t"] + sizes[f"band-{setting}"] + frame_stack
-        yield f"all of it for {setting}", target, sizes["yb_map_t"] + max(load, draw), "bytes"
+        draw = sizes[f"piece-{setting}"] + frame_stack
+        yield f"all of it for {setting}", target, max(load, draw), "bytes"
     sections = boards.section_sizes(boards.firmware_elf(board))
     yield "viewer firmware, .data and .bss", target, sections.get(".data", 0) + sections[".bss"], \
         "bytes"
