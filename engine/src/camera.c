@@ -270,7 +270,7 @@ static void find_lengths(yb_frame_t *frame, uint64_t whole)
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
         edge_q4 = (uint32_t)fix_max(49 * width / 48 - 12, (width + 1) >> 1);
-    frame->thin_q4 = (int32_t)edge_q4 >> 1;
+    frame->thin_q4 = (int32_t)edge_q4;
     frame->longest = fix_share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
 }
 

@@ -329,7 +329,7 @@ static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part)
     const yb_spot_t *a = &part->point[0]->spot;
     const yb_spot_t *b = &part->point[1]->spot;
     const yb_spot_t *c = &part->point[2]->spot;
-    if (refine_edges(part) < 4 * REFINE_ONCE || a->near == 0 || b->near == 0 || c->near == 0)
+    if (refine_edges(part) < 3 * REFINE_ONCE || a->near == 0 || b->near == 0 || c->near == 0)
         return false;
     const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
     const int32_t by = (int32_t)b->y_q4 - a->y_q4;

@@ -604,7 +604,7 @@ typedef struct {
      * eye and shifted right by eye_shift, which gives them 16 bits. */
     int32_t right_x, right_y, up_x, up_y, up_z, depth_x, depth_y, depth_z;
     uint32_t longest; /* an edge is split while length * 1/depth is above it */
-    int32_t thin_q4;  /* a sliver is thinner than this: half an edge */
+    int32_t thin_q4;  /* a sliver is thinner than this: an edge */
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
     int32_t haze_near, haze_q16;                  /* 1/depth where haze begins; 256 over that */
     int32_t tone_q16;                             /* hues per height unit */
