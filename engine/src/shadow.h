@@ -12,12 +12,15 @@ static inline int shadow_cell_shift(const yb_shadow_t *shadow)
     return 16 - fix_log2_floor(shadow->side);
 }
 
-/* A cell, and the one `step` further on: none, one or both of two bits. */
-static inline uint32_t shadow_pair(const yb_shadow_t *shadow, int32_t cell, int32_t step)
+/* A place between the middles of the first and the last cell, in eighths of a cell: there, and at
+ * all of them alike, the rest of the map has what the nearest of these has.
+ */
+static inline int32_t shadow_within(int32_t at, int32_t cells)
 {
-    const int32_t next = cell + step;
-    return (uint32_t)(shadow->lit[cell >> 3] >> (cell & 7) & 1) |
-           (uint32_t)(shadow->lit[next >> 3] >> (next & 7) & 1) << 1;
+    const int32_t end = 8 * cells - 8;
+    if ((uint32_t)at < (uint32_t)end)
+        return at;
+    return at < 0 || end == 0 ? 0 : end - 1;
 }
 
 enum {
@@ -29,24 +32,26 @@ enum {
  */
 static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
 {
-    int shift = shadow_cell_shift(shadow);
-    /* From the middle of a cell to the middle of the next, in eighths; from the grid's rim on,
-     * none.
-     */
-    int32_t x = fix_max((x_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3), 0);
-    int32_t y = fix_max((y_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3), 0);
-    int32_t i = fix_min(x >> 3, shadow->columns - 1);
-    int32_t j = fix_min(y >> 3, shadow->rows - 1);
-    int32_t to_east = i < shadow->columns - 1 ? 1 : 0;
-    int32_t to_north = j < shadow->rows - 1 ? shadow->side : 0;
-    int32_t cell = j * shadow->side + i;
-    uint32_t south = shadow_pair(shadow, cell, to_east);
-    uint32_t north = shadow_pair(shadow, cell + to_north, to_east);
-    if (south == north && (south == 0 || south == 3))
-        return south == 0 ? 0 : SHADOW_NONE;
-    int32_t east = x & 7;
-    int32_t south_row = (int32_t)(south & 1) * (8 - east) + (int32_t)(south >> 1) * east;
-    int32_t north_row = (int32_t)(north & 1) * (8 - east) + (int32_t)(north >> 1) * east;
+    const int shift = shadow_cell_shift(shadow) - 3;
+    const int32_t side = shadow->side;
+    const int32_t x = shadow_within((x_q8 >> shift) - 4, shadow->columns);
+    const int32_t y = shadow_within((y_q8 >> shift) - 4, shadow->rows);
+    /* A cell and the one to the east of it: two bits of one byte, or of two. */
+    const int32_t cell = (y >> 3) * side + (x >> 3);
+    const int32_t bit = cell & 7;
+    const uint8_t *here = &shadow->lit[cell >> 3];
+    const uint8_t *next = here + ((bit + 1) >> 3);
+    const int32_t north_by = side >> 3;
+    const int32_t south = (int32_t)((here[0] | (uint32_t)next[0] << 8) >> bit & 3);
+    const int32_t north = (int32_t)((here[north_by] | (uint32_t)next[north_by] << 8) >> bit & 3);
+    const int32_t four = south + 4 * north;
+    if (four == 15)
+        return SHADOW_NONE;
+    if (four == 0)
+        return 0;
+    const int32_t east = x & 7;
+    const int32_t south_row = (south & 1) * (8 - east) + (south >> 1) * east;
+    const int32_t north_row = (north & 1) * (8 - east) + (north >> 1) * east;
     return south_row * (8 - (y & 7)) + north_row * (y & 7);
 }
 
