@@ -21,6 +21,13 @@ _Static_assert((-3 >> 1) == -2, "arithmetic right shift");
 #define APART static
 #endif
 
+/* A function that is in line wherever it is called, where speed counts more than size. */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define COPIED static inline __attribute__((always_inline))
+#else
+#define COPIED static inline
+#endif
+
 static inline int32_t fix_abs(int32_t a)
 {
     return a < 0 ? -a : a;

@@ -33,9 +33,8 @@ static inline uint32_t lines_size(int32_t a)
  * Twice the area is below 2^27, and the determinants of rises and sides below 2^30. Of these
  * numbers the leading bits will do: lines are off by less than 2^-11 of where they begin.
  */
-static inline bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
-                              int32_t rise_b, int32_t rise_c, uint32_t value, lines_scale_t by,
-                              raster_cut_t *cut)
+COPIED bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c, int32_t rise_b,
+                       int32_t rise_c, uint32_t value, lines_scale_t by, raster_cut_t *cut)
 {
     int32_t x1 = (int32_t)b->x_q4 - a->x_q4;
     int32_t y1 = (int32_t)b->y_q4 - a->y_q4;

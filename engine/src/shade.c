@@ -179,13 +179,6 @@ static inline int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, no
     return frame->view.lamp ? lamp_light(frame, at, n) : sun_light(frame, n);
 }
 
-/* Where speed counts more than size, shadows are looked up in line. */
-#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
-#define COPIED static inline __attribute__((always_inline))
-#else
-#define COPIED static
-#endif
-
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
  * does not hide the relief.
  */
@@ -259,6 +252,21 @@ APART int32_t odd_light(const yb_frame_t *frame, const yb_point_t *const corner[
     return light_on(frame, corner[0], normal);
 }
 
+/* What a triangle looks like that has this light. */
+APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3], int32_t light)
+{
+    const uint32_t looks = frame->looks;
+    const int32_t shade = shadowed(frame, corner, light);
+    uint16_t pixel = (uint16_t)shade;
+    if ((looks & LOOK_ODD) != 0 && is_water(frame, corner))
+        pixel = water_pixel(frame, shade, nearest_of(corner));
+    else if ((looks & LOOK_COLOURS) != 0)
+        pixel = coloured(frame, corner, shade);
+    else if ((looks & LOOK_HAZE) != 0)
+        pixel = colour_grey(frame, shade, nearest_of(corner));
+    return (shade_t){pixel, (uint16_t)light};
+}
+
 shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
     const uint32_t slopes = slopes_of(corner);
@@ -269,21 +277,13 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
         if (USUAL(frame->smooth))
             smooth_normal(slopes, &normal);
         light = sun_light(frame, normal);
-        if (USUAL(looks == 0))
-            return (shade_t){(uint16_t)light, (uint16_t)light};
     } else {
         light = odd_light(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
                           normal.z);
     }
-    const int32_t shade = shadowed(frame, corner, light);
-    uint16_t pixel = (uint16_t)shade;
-    if ((looks & LOOK_ODD) != 0 && is_water(frame, corner))
-        pixel = water_pixel(frame, shade, nearest_of(corner));
-    else if ((looks & LOOK_COLOURS) != 0)
-        pixel = coloured(frame, corner, shade);
-    else if ((looks & LOOK_HAZE) != 0)
-        pixel = colour_grey(frame, shade, nearest_of(corner));
-    return (shade_t){pixel, (uint16_t)light};
+    if (!USUAL(looks == 0))
+        return look_of(frame, corner, light);
+    return (shade_t){(uint16_t)light, (uint16_t)light};
 }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
@@ -302,8 +302,8 @@ static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shad
 /* The shore, where a triangle reaches into the water: heights less than 2^16 from that have values
  * within 2^31.
  */
-static bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t above,
-                      raster_cut_t *cut)
+APART bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t above,
+                     raster_cut_t *cut)
 {
     static const normal_t level = {0, 0, 1 << 12};
     static const lines_scale_t scale = {(uint32_t)1 << 15, 0};
@@ -330,15 +330,13 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t sh
         return high > frame->view.water_q8 && range < (uint32_t)1 << 16 &&
                cut_shore(frame, p, shade.pixel, cut);
     const uint32_t inverse = frame->contour_inverse;
-    if (inverse == 0 || range >= (uint32_t)1 << 16)
-        return false;
     /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
      * is no more than a quarter of a triangle that has pixels. What is above the highest line below
      * the top is less than all. */
     const uint32_t span = range * inverse;
     const uint32_t top = (uint32_t)high * inverse + frame->contour_zero;
     const bool many = 3 * range >= 2 * (uint32_t)frame->view.contour_q8;
-    if (!many && top + (span >> 2) > span + (span >> 1))
+    if (many ? range >= (uint32_t)1 << 16 : top + (span >> 2) > span + (span >> 1))
         return false;
     const lines_scale_t scale = {inverse, frame->contour_shift};
     if (!lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, b - a, c - a,

@@ -36,23 +36,23 @@ static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int3
     const int32_t side = shadow->side;
     const int32_t x = shadow_within((x_q8 >> shift) - 4, shadow->columns);
     const int32_t y = shadow_within((y_q8 >> shift) - 4, shadow->rows);
-    /* A cell and the one to the east of it: two bits of one byte, or of two. */
+    /* A cell and the one to the east of it are two bits of a byte, or one each of two bytes. The
+     * cells to the north of these: 16 bits up. */
     const int32_t cell = (y >> 3) * side + (x >> 3);
-    const int32_t bit = cell & 7;
-    const uint8_t *here = &shadow->lit[cell >> 3];
-    const uint8_t *next = here + ((bit + 1) >> 3);
-    const int32_t north_by = side >> 3;
-    const int32_t south = (int32_t)((here[0] | (uint32_t)next[0] << 8) >> bit & 3);
-    const int32_t north = (int32_t)((here[north_by] | (uint32_t)next[north_by] << 8) >> bit & 3);
-    const int32_t four = south + 4 * north;
-    if (four == 15)
+    const uint8_t *south = &shadow->lit[cell >> 3];
+    const uint8_t *north = south + (side >> 3);
+    uint32_t bits = south[0] | (uint32_t)north[0] << 16;
+    if ((cell & 7) == 7)
+        bits |= (uint32_t)south[1] << 8 | (uint32_t)north[1] << 24;
+    bits = bits >> (cell & 7) & 0x30003;
+    if (bits == 0x30003)
         return SHADOW_NONE;
-    if (four == 0)
+    if (bits == 0)
         return 0;
-    const int32_t east = x & 7;
-    const int32_t south_row = (south & 1) * (8 - east) + (south >> 1) * east;
-    const int32_t north_row = (north & 1) * (8 - east) + (north >> 1) * east;
-    return south_row * (8 - (y & 7)) + north_row * (y & 7);
+    const uint32_t east = (uint32_t)x & 7;
+    const uint32_t up = (uint32_t)y & 7;
+    const uint32_t rows = (bits & 0x10001) * (8 - east) + (bits >> 1 & 0x10001) * east;
+    return (int32_t)((rows & 0xffff) * (8 - up) + (rows >> 16) * up);
 }
 
 #endif

@@ -610,7 +610,7 @@ typedef struct {
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
     int32_t haze_near, haze_q16;                  /* 1/depth where haze begins; 256 over that */
     int32_t tone_q16;                             /* hues per height unit */
-    uint32_t contour_inverse; /* 2^32 over the interval of contour lines, or 0, … */
+    uint32_t contour_inverse; /* 2^32 over the interval of contour lines, 0: none, … */
     uint32_t contour_zero;    /* … and what a height has added when multiplied by that */
     int32_t base_q8;          /* where the walls end */
     int32_t sway_x_q4; /* farthest that one unit of height moves a point on the screen, … */
