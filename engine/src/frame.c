@@ -45,17 +45,18 @@ static int32_t farthest_stray(yb_frame_t *frame)
  */
 static void begin_lines(yb_frame_t *frame)
 {
-    yb_view_t *view = &frame->view;
+    const yb_view_t *view = &frame->view;
     frame->lines = view->water_q8 != YB_NO_WATER || view->contour_q8 > 0;
     if (view->contour_q8 <= 0) { /* as if all heights were half an interval above a line */
-        view->contour_q8 = INT32_MAX;
+        frame->contour_few = UINT32_MAX;
         frame->contour_inverse = 0;
         frame->contour_zero = (uint32_t)1 << 31;
         return;
     }
-    view->contour_q8 = fix_clamp(view->contour_q8, YB_LEAST_CONTOUR_Q8, YB_MOST_CONTOUR_Q8);
+    int32_t interval = fix_clamp(view->contour_q8, YB_LEAST_CONTOUR_Q8, YB_MOST_CONTOUR_Q8);
     int32_t at = fix_clamp(view->contour_at_q8, -8 * YB_MAX_HEIGHT_Q8, 8 * YB_MAX_HEIGHT_Q8);
-    frame->contour_inverse = UINT32_MAX / (uint32_t)view->contour_q8 + 1;
+    frame->contour_inverse = UINT32_MAX / (uint32_t)interval + 1;
+    frame->contour_few = 2 * (uint32_t)interval / 3;
     frame->contour_zero = 0 - (uint32_t)at * frame->contour_inverse;
     frame->contour_shift = (uint8_t)(fix_log2_floor(frame->contour_inverse) - 15);
 }

@@ -60,10 +60,11 @@ COPIED bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *
     const uint32_t inverse = (uint32_t)LINES_RECIPROCAL((int32_t)((uint32_t)area << up >> 17));
     const int32_t factor = (int32_t)(inverse * (by.scale >> by.shift) >> 15);
     /* 14 bits times 16 are below 2^30. */
-    const int down = fix_log2_floor(lines_size(along_x) | lines_size(along_y) | 1 << 13) - 13;
+    int32_t steepest = fix_max(fix_abs(along_x), fix_abs(along_y));
+    const int down = fix_log2_floor((uint32_t)steepest | (uint32_t)1 << 13) - 13;
     along_x = (along_x >> down) * factor;
     along_y = (along_y >> down) * factor;
-    int32_t steepest = fix_max(fix_abs(along_x), fix_abs(along_y));
+    steepest = (steepest >> down) * factor;
     power += up + down + by.shift;
     if (power > 0) {
         if (steepest >= ((int32_t)1 << 30) >> power)

@@ -317,36 +317,41 @@ APART bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint
                       (uint32_t)(p[0]->z_q8 - frame->view.water_q8) * scale.scale, scale, cut);
 }
 
-bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
-               raster_cut_t *cut)
+/* Contour lines, where a triangle may reach one. */
+APART bool cut_ground(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+                      raster_cut_t *cut)
 {
-    const int32_t a = p[0]->z_q8;
-    const int32_t b = p[1]->z_q8;
-    const int32_t c = p[2]->z_q8;
-    const int32_t low = fix_min(a, fix_min(b, c));
-    const int32_t high = fix_max(a, fix_max(b, c));
-    const uint32_t range = (uint32_t)(high - low);
-    if (low < frame->view.water_q8)
-        return high > frame->view.water_q8 && range < (uint32_t)1 << 16 &&
-               cut_shore(frame, p, shade.pixel, cut);
-    const uint32_t inverse = frame->contour_inverse;
-    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
-     * is no more than a quarter of a triangle that has pixels. What is above the highest line below
-     * the top is less than all. */
-    const uint32_t span = range * inverse;
-    const uint32_t top = (uint32_t)high * inverse + frame->contour_zero;
-    const bool many = 3 * range >= 2 * (uint32_t)frame->view.contour_q8;
-    if (many ? range >= (uint32_t)1 << 16 : top + (span >> 2) > span + (span >> 1))
-        return false;
-    const lines_scale_t scale = {inverse, frame->contour_shift};
-    if (!lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, b - a, c - a,
-                    (uint32_t)a * inverse + frame->contour_zero, scale, cut))
-        return false;
-    if (!many && top + (cut->width >> 1) > span + cut->width)
+    const int32_t z = p[0]->z_q8;
+    const lines_scale_t scale = {frame->contour_inverse, frame->contour_shift};
+    if (!lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, p[1]->z_q8 - z, p[2]->z_q8 - z,
+                    (uint32_t)z * scale.scale + frame->contour_zero, scale, cut))
         return false;
     cut->below = cut->above = shade.pixel;
     cut->line = line_pixel(frame, HUE_LINE, shade.light, nearest_of(p));
     return true;
+}
+
+bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+               raster_cut_t *cut)
+{
+    const int32_t z = p[0]->z_q8;
+    const int32_t rise_b = p[1]->z_q8 - z;
+    const int32_t rise_c = p[2]->z_q8 - z;
+    const int32_t low = fix_min(fix_min(rise_b, 0), rise_c);
+    const int32_t high = fix_max(fix_max(rise_b, 0), rise_c);
+    const uint32_t range = (uint32_t)(high - low);
+    if (!USUAL(z + low >= frame->view.water_q8))
+        return z + high > frame->view.water_q8 && range < (uint32_t)1 << 16 &&
+               cut_shore(frame, p, shade.pixel, cut);
+    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
+     * is no more than a quarter of a triangle that has pixels. What is above the highest line below
+     * the top is less than all. */
+    const uint32_t span = range * frame->contour_inverse;
+    const uint32_t top = (uint32_t)(z + high) * frame->contour_inverse + frame->contour_zero;
+    if (range >= frame->contour_few ? range >= (uint32_t)1 << 16
+                                    : top + (span >> 2) > span + (span >> 1))
+        return false;
+    return cut_ground(frame, p, shade, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)

@@ -612,6 +612,7 @@ typedef struct {
     int32_t tone_q16;                             /* hues per height unit */
     uint32_t contour_inverse; /* 2^32 over the interval of contour lines, 0: none, … */
     uint32_t contour_zero;    /* … and what a height has added when multiplied by that */
+    uint32_t contour_few;     /* two thirds of the interval */
     int32_t base_q8;          /* where the walls end */
     int32_t sway_x_q4; /* farthest that one unit of height moves a point on the screen, … */
     int32_t sway_y_q4; /* … by 1/depth: see refine.c */
