@@ -20,12 +20,6 @@ typedef struct {
 #define LINES_RECIPROCAL fix_reciprocal
 #endif
 
-/* The size of a number, but that a negative one counts as one less: one instruction. */
-static inline uint32_t lines_size(int32_t a)
-{
-    return (uint32_t)(a ^ a >> 31);
-}
-
 /* Finds a cut's values from that of a triangle's first corner, and what the other two are higher
  * by, less than 2^16. It is counter-clockwise, and has an area. False: a line is a quarter of the
  * way from one to the next, or more; where there is one only, the triangle is a sliver.
@@ -40,7 +34,7 @@ COPIED bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *
     int32_t y1 = (int32_t)b->y_q4 - a->y_q4;
     int32_t x2 = (int32_t)c->x_q4 - a->x_q4;
     int32_t y2 = (int32_t)c->y_q4 - a->y_q4;
-    const uint32_t most = lines_size(x1) | lines_size(y1) | lines_size(x2) | lines_size(y2);
+    const uint32_t most = fix_size(x1) | fix_size(y1) | fix_size(x2) | fix_size(y2);
     int power = -27;
     if (most >= (uint32_t)1 << 13) {
         const int coarse = fix_log2_floor(most) - 12;

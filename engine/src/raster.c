@@ -34,6 +34,7 @@ static inline int32_t crossing_of(const side_t *side)
 /* Where speed counts more than size, there is a copy with colours and one without, for lines and
  * for none: branching on that would be a seventh of what a triangle costs.
  */
+
 /* Draws a small triangle: in one pixel value, or with lines. */
 COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
                        uint16_t pixel, const raster_cut_t *cut)

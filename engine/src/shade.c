@@ -59,17 +59,11 @@ static inline int32_t shade_from(uint32_t number, uint32_t whole_q12)
     return (int32_t)(~i & (SHADES - 1));
 }
 
-/* The size of a number, but that a negative one counts as one less: one instruction. */
-static inline uint32_t size_of(int32_t a)
-{
-    return (uint32_t)(a ^ a >> 31);
-}
-
 /* Brings the greatest of three numbers below 2^31 to 13 bits. The third, which has 32, is above 0.
  */
 static inline normal_t to_13_bits(int32_t x, int32_t y, uint32_t z)
 {
-    const int shift = fix_log2_floor(size_of(x) | size_of(y) | z) - 12;
+    const int shift = fix_log2_floor(fix_size(x) | fix_size(y) | z) - 12;
     if (USUAL(shift >= 0))
         return (normal_t){x >> shift, y >> shift, (int32_t)(z >> shift)};
     return (normal_t){x * (1 << -shift), y * (1 << -shift), (int32_t)(z << -shift)};
@@ -105,7 +99,7 @@ static int32_t lamp_light(const yb_frame_t *frame, const yb_point_t *at, normal_
     int32_t x = lamp[0] - (int32_t)(at->place & 0xffff);
     int32_t y = lamp[1] - (int32_t)(at->place >> 16);
     int32_t z = lamp[2] - ((at->top_q8 * (frame->view.exaggerate_q8 >> 3)) >> 5);
-    normal_t way = to_13_bits(x, y, size_of(z) | 1); /* at the lamp itself: from above */
+    normal_t way = to_13_bits(x, y, fix_size(z) | 1); /* at the lamp itself: from above */
     way.z = z < 0 ? -way.z : way.z;
     int32_t dot = n.x * way.x + n.y * way.y + n.z * way.z; /* within 3 * 2^28 */
     if (dot <= 0)
@@ -134,7 +128,7 @@ static inline normal_t normal_of(const yb_point_t *const p[3])
     uint32_t area = (uint32_t)x1 * (uint32_t)y2 - (uint32_t)y1 * (uint32_t)x2;
     int32_t z1 = p[1]->top_q8 - p[0]->top_q8;
     int32_t z2 = p[2]->top_q8 - p[0]->top_q8;
-    const uint32_t rise = size_of(z1) | size_of(z2);
+    const uint32_t rise = fix_size(z1) | fix_size(z2);
     if (!USUAL(rise < (uint32_t)1 << 14)) {
         const int shift = fix_log2_floor(rise) - 13;
         z1 >>= shift;
@@ -219,14 +213,15 @@ static int hue_of(const yb_frame_t *frame, int32_t z_q8)
     return (int)fix_min((int32_t)(((uint32_t)above * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
 }
 
-/* The pixel value of ground that has this shade where there are colours. */
-APART uint16_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3], int32_t shade)
+/* What ground that has this shade looks like where there are colours. */
+APART shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3], int32_t shade,
+                       int32_t light)
 {
     /* A third: 5461 / 2^14. */
     const int32_t middle =
         ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
     const int32_t near = (frame->looks & LOOK_HAZE) == 0 ? 0 : nearest_of(corner);
-    return colour_pixel(frame, hue_of(frame, middle), shade, near);
+    return (shade_t){colour_pixel(frame, hue_of(frame, middle), shade, near), (uint16_t)light};
 }
 
 /* Does a triangle lie in the water? */
@@ -261,7 +256,7 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     if ((looks & LOOK_ODD) != 0 && is_water(frame, corner))
         pixel = water_pixel(frame, shade, nearest_of(corner));
     else if ((looks & LOOK_COLOURS) != 0)
-        pixel = coloured(frame, corner, shade);
+        return coloured(frame, corner, shade, light);
     else if ((looks & LOOK_HAZE) != 0)
         pixel = colour_grey(frame, shade, nearest_of(corner));
     return (shade_t){pixel, (uint16_t)light};
@@ -281,9 +276,11 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
         light = odd_light(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
                           normal.z);
     }
-    if (!USUAL(looks == 0))
-        return look_of(frame, corner, light);
-    return (shade_t){(uint16_t)light, (uint16_t)light};
+    if (USUAL(looks == 0))
+        return (shade_t){(uint16_t)light, (uint16_t)light};
+    if (looks == LOOK_COLOURS)
+        return coloured(frame, corner, light, light);
+    return look_of(frame, corner, light);
 }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
