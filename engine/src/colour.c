@@ -53,16 +53,11 @@ void colour_begin(yb_frame_t *frame)
         frame->haze_near = camera_near(frame, fix_max(depth, frame->near));
     }
     frame->haze_q16 = frame->haze_near > 0 ? ((int32_t)256 << 16) / frame->haze_near : 0;
-}
-
-/* How much of what is seen is haze, of 256: 1 - d/D at distance D, where haze begins at d. For
- * near < haze_near the product is below 2^24.
- */
-static int32_t haze_of(const yb_frame_t *frame, int32_t near)
-{
-    if (near == 0 || near >= frame->haze_near)
-        return 0;
-    return 256 - (near * frame->haze_q16 >> 16);
+    const yb_view_t *view = &frame->view;
+    const bool odd = view->lamp || view->water_q8 != YB_NO_WATER || view->exaggerate_q8 != 256;
+    frame->looks = (uint8_t)((frame->screen.format == YB_RGB565 ? LOOK_COLOURS : 0) |
+                             (frame->haze_near > 0 ? LOOK_HAZE : 0) |
+                             (view->shadow != NULL ? LOOK_SHADOWS : 0) | (odd ? LOOK_ODD : 0));
 }
 
 static uint16_t rgb565(uint32_t red, uint32_t green, uint32_t blue)
@@ -78,9 +73,9 @@ static inline uint32_t blend(int32_t from, int32_t to, int32_t share)
 
 uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
-    int32_t haze = haze_of(frame, near);
-    if (frame->screen.format != YB_RGB565) /* there the sky is black */
-        return (uint16_t)fix_max(shade * (256 - haze) >> 8, 1);
+    if ((frame->looks & LOOK_COLOURS) == 0)
+        return colour_grey(frame, shade, near);
+    const int32_t haze = 256 - colour_clear(frame, near);
     const uint8_t(*palette)[3] = hues[frame->view.palette];
     const uint8_t *full = palette[hue];
     const uint32_t share = (uint32_t)shade + 1; /* of 16 */

@@ -21,9 +21,22 @@ _Static_assert((-3 >> 1) == -2, "arithmetic right shift");
 #define APART static
 #endif
 
+/* A function that is in line wherever it is called, where speed counts more than size. */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define COPIED static inline __attribute__((always_inline))
+#else
+#define COPIED static inline
+#endif
+
 static inline int32_t fix_abs(int32_t a)
 {
     return a < 0 ? -a : a;
+}
+
+/* The size of a number, but that a negative one counts as one less: one instruction. */
+static inline uint32_t fix_size(int32_t a)
+{
+    return (uint32_t)(a ^ a >> 31);
 }
 
 /* a - b, of two plan coordinates: they are unsigned, and on a small processor an int has 16 bits.

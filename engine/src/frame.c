@@ -39,24 +39,26 @@ static int32_t farthest_stray(yb_frame_t *frame)
     return fix_max(frame->view.water_q8, map->low_q8 + farthest) - map->low_q8;
 }
 
-/* The contour line below all that shade_cut asks for: heights, less a quarter of a triangle's.
- * Above it all of them are below 2^21.
+/* Heights, in intervals of contour lines, are counted in numbers of 32 bits, which leave no more of
+ * them than what is above a line. What is within 9 YB_MAX_HEIGHT_Q8 of the given one is off by less
+ * than a 2^10th of an interval.
  */
-static void begin_lines(yb_frame_t *frame, int32_t stray)
+static void begin_lines(yb_frame_t *frame)
 {
-    const yb_map_t *map = frame->map;
     const yb_view_t *view = &frame->view;
-    frame->contour_inverse = 0;
-    frame->lines = view->water_q8 != YB_NO_WATER;
-    if (view->contour_q8 <= 0)
+    frame->lines = view->water_q8 != YB_NO_WATER || view->contour_q8 > 0;
+    if (view->contour_q8 <= 0) { /* as if all heights were half an interval above a line */
+        frame->contour_few = UINT32_MAX;
+        frame->contour_inverse = 0;
+        frame->contour_zero = (uint32_t)1 << 31;
         return;
-    frame->lines = true;
+    }
     int32_t interval = fix_clamp(view->contour_q8, YB_LEAST_CONTOUR_Q8, YB_MOST_CONTOUR_Q8);
     int32_t at = fix_clamp(view->contour_at_q8, -8 * YB_MAX_HEIGHT_Q8, 8 * YB_MAX_HEIGHT_Q8);
-    int32_t low = map->low_q8 - stray - ((map->high_q8 - map->low_q8 + 2 * stray) >> 2) - 2;
-    frame->view.contour_q8 = interval;
-    frame->contour_low = at + ((low - at) / interval - 1) * interval;
-    frame->contour_inverse = ((uint32_t)1 << 20) / (uint32_t)interval;
+    frame->contour_inverse = UINT32_MAX / (uint32_t)interval + 1;
+    frame->contour_few = 2 * (uint32_t)interval / 3;
+    frame->contour_zero = 0 - (uint32_t)at * frame->contour_inverse;
+    frame->contour_shift = (uint8_t)(fix_log2_floor(frame->contour_inverse) - 15);
 }
 
 /* Moves the triangles to behind the last vertex. */
@@ -115,7 +117,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     camera_clamp(frame);
     int32_t stray = farthest_stray(frame);
     camera_begin(frame, stray);
-    begin_lines(frame, stray);
+    begin_lines(frame);
     frame->smooth = map->smooth;
     frame->noise = map->detail ? map->noise : NULL;
     frame->salt = relief_salt(map->seed);

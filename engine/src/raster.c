@@ -34,15 +34,10 @@ static inline int32_t crossing_of(const side_t *side)
 /* Where speed counts more than size, there is a copy with colours and one without, for lines and
  * for none: branching on that would be a seventh of what a triangle costs.
  */
-#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
-#define COPIED static inline __attribute__((always_inline))
-#else
-#define COPIED static
-#endif
 
 /* Draws a small triangle: in one pixel value, or with lines. */
 COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
-                       uint16_t pixel, cutter_t *cutter)
+                       uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];
@@ -58,12 +53,13 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     side_t right = begin_side(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
     const size_t pitch = pixels_pitch(raster);
     uint8_t *row = pixels_row(raster, y) + (colours ? 2 * base : base / 2);
-    if (cutter != NULL)
-        cutter->plane.at_q14 += (uint32_t)cutter->plane.along_x * (uint32_t)base;
+    uint32_t value = 0;
+    if (cut != NULL)
+        value = rows_value(cut, y) + (uint32_t)cut->along_x * (uint32_t)base;
     for (;;) {
-        if (cutter != NULL) {
-            rows_cut(colours, row, crossing_of(&left), crossing_of(&right), cutter);
-            cutter->plane.at_q14 += (uint32_t)cutter->plane.along_y;
+        if (cut != NULL) {
+            rows_cut(colours, row, crossing_of(&left), crossing_of(&right), value, cut);
+            value += (uint32_t)cut->along_y;
         } else {
             rows_fill(colours, row, crossing_of(&left), crossing_of(&right), pixel);
         }
@@ -79,26 +75,22 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     }
 }
 
-/* False: the lines would lie so close together that nothing else would be left. */
-static bool draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
+static void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
 {
-    cutter_t cutter;
-    if (!rows_start_cut(&cutter, cut, shape, fix_max(shape->top, raster->first_row)))
-        return false;
     if (pixels_have_colours(raster->screen))
-        draw_level(true, raster, shape, 0, &cutter);
+        draw_level(true, raster, shape, 0, cut);
     else
-        draw_level(false, raster, shape, 0, &cutter);
-    return true;
+        draw_level(false, raster, shape, 0, cut);
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
-    if (shape->top >= raster->end_row || shape->bottom <= raster->first_row ||
-        (cut != NULL && draw_lines(raster, shape, cut)))
+    if (shape->top >= raster->end_row || shape->bottom <= raster->first_row)
         return;
-    if (pixels_have_colours(raster->screen))
+    if (cut != NULL)
+        draw_lines(raster, shape, cut);
+    else if (pixels_have_colours(raster->screen))
         draw_level(true, raster, shape, pixel, NULL);
     else
         draw_level(false, raster, shape, pixel, NULL);

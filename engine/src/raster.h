@@ -14,14 +14,14 @@ typedef int32_t raster_area_t;
 typedef int64_t raster_area_t;
 #endif
 
-/* Lines across a triangle: where a value that is linear on it, 0 to 65535 at its corners, equals
- * `zero`, or that and any multiple of the interval. A line is about a pixel wide. Where there is no
- * interval one side of it has another pixel value.
+/* Lines across a triangle, by a value that is linear on it, modulo 2^32: where it is no more than
+ * their width, which is about a pixel. Beyond, where it is negative, or not, one side of a line may
+ * have another pixel value than the other.
  */
 typedef struct {
-    int32_t value[5]; /* the first two again behind the last: those from any corner on */
-    int32_t zero;
-    int32_t interval; /* 0: there is one line only */
+    uint32_t at; /* in the middle of the screen's pixel (0, 0) */
+    int32_t along_x, along_y;
+    uint32_t width;
     uint16_t below, above, line;
 } raster_cut_t;
 
@@ -56,7 +56,6 @@ typedef enum {
  */
 typedef struct {
     const yb_spot_t *p[3];
-    int first; /* which of the corners that were given p[0] is */
     int32_t top, bottom;
 } raster_shape_t;
 
@@ -69,19 +68,16 @@ static inline bool raster_is_within(int32_t dx, int32_t most)
 static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
                                          raster_shape_t *shape)
 {
-    shape->first = 0;
     if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
         const yb_spot_t *last = a;
         a = b;
         b = c;
         c = last;
-        shape->first = 1;
     } else if (c->y_q4 < a->y_q4) {
         const yb_spot_t *last = b;
         b = a;
         a = c;
         c = last;
-        shape->first = 2;
     }
     const int32_t high = a->y_q4;
     const int32_t low = b->y_q4 > c->y_q4 ? b->y_q4 : c->y_q4;

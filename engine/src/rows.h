@@ -30,39 +30,18 @@ static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
     return slope + (left * inverse >> ROWS_FRACTION);
 }
 
-/* --- Values ----------------------------------------------------------------------------------- */
-
-/* A value that is linear on a triangle, at a pixel. */
-typedef struct {
-    uint32_t at_q14;
-    int32_t along_x, along_y;
-} plane_t;
-
 /* --- Lines ------------------------------------------------------------------------------------ */
 
-/* A triangle's cut, as it goes from row to row. */
-typedef struct {
-    plane_t plane;         /* of the value, less that of a line */
-    int32_t half;          /* of a line's width in value, and of the interval, 14 fractional bits */
-    int32_t half_interval; /* 0: there is one line only */
-    const raster_cut_t *cut;
-} cutter_t;
-
-/* From row y on. False: the lines would lie so close together that nothing else would be left. */
-bool rows_start_cut(cutter_t *cutter, const raster_cut_t *cut, const raster_shape_t *shape,
-                    int32_t y);
-
-/* What is seen at a value. Values are below 2^16, and the interval is: within 2^30. */
-static inline uint16_t cut_at(const cutter_t *cutter, uint32_t value)
+/* A cut's value in a row. */
+static inline uint32_t rows_value(const raster_cut_t *cut, int32_t y)
 {
-    int32_t off = (int32_t)value;
-    if (cutter->half_interval > 0) {
-        while (off >= cutter->half_interval)
-            off -= 2 * cutter->half_interval;
-    }
-    return fix_abs(off) <= cutter->half ? cutter->cut->line
-           : off < 0                    ? cutter->cut->below
-                                        : cutter->cut->above;
+    return cut->at + (uint32_t)cut->along_y * (uint32_t)y;
+}
+
+/* What is seen at a value. */
+static inline uint16_t cut_at(const raster_cut_t *cut, uint32_t value)
+{
+    return value <= cut->width ? cut->line : (int32_t)value < 0 ? cut->below : cut->above;
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------
@@ -77,13 +56,13 @@ static inline void rows_fill(bool colours, uint8_t *row, int32_t x, int32_t end,
         pixels_fill_grey(row, x, end, pixel);
 }
 
-/* The same, with lines. */
-static inline void rows_cut(bool colours, uint8_t *row, int32_t x, int32_t end,
-                            const cutter_t *cutter)
+/* The same, with lines, by the value at the pixel 0. */
+static inline void rows_cut(bool colours, uint8_t *row, int32_t x, int32_t end, uint32_t value,
+                            const raster_cut_t *cut)
 {
-    uint32_t value = cutter->plane.at_q14 + (uint32_t)cutter->plane.along_x * (uint32_t)x;
-    for (; x < end; x++, value += (uint32_t)cutter->plane.along_x) {
-        const uint16_t pixel = cut_at(cutter, value);
+    value += (uint32_t)cut->along_x * (uint32_t)x;
+    for (; x < end; x++, value += (uint32_t)cut->along_x) {
+        const uint16_t pixel = cut_at(cut, value);
         if (colours)
             pixels_put_colour(row + 2 * x, pixels_swapped(pixel));
         else

@@ -4,6 +4,7 @@
 
 #include "colour.h"
 #include "fix.h"
+#include "lines.h"
 #include "relief.h"
 #include "shadow.h"
 
@@ -58,17 +59,11 @@ static inline int32_t shade_from(uint32_t number, uint32_t whole_q12)
     return (int32_t)(~i & (SHADES - 1));
 }
 
-/* The size of a number, but that a negative one counts as one less: one instruction. */
-static inline uint32_t size_of(int32_t a)
-{
-    return (uint32_t)(a ^ a >> 31);
-}
-
 /* Brings the greatest of three numbers below 2^31 to 13 bits. The third, which has 32, is above 0.
  */
 static inline normal_t to_13_bits(int32_t x, int32_t y, uint32_t z)
 {
-    const int shift = fix_log2_floor(size_of(x) | size_of(y) | z) - 12;
+    const int shift = fix_log2_floor(fix_size(x) | fix_size(y) | z) - 12;
     if (USUAL(shift >= 0))
         return (normal_t){x >> shift, y >> shift, (int32_t)(z >> shift)};
     return (normal_t){x * (1 << -shift), y * (1 << -shift), (int32_t)(z << -shift)};
@@ -104,7 +99,7 @@ static int32_t lamp_light(const yb_frame_t *frame, const yb_point_t *at, normal_
     int32_t x = lamp[0] - (int32_t)(at->place & 0xffff);
     int32_t y = lamp[1] - (int32_t)(at->place >> 16);
     int32_t z = lamp[2] - ((at->top_q8 * (frame->view.exaggerate_q8 >> 3)) >> 5);
-    normal_t way = to_13_bits(x, y, size_of(z) | 1); /* at the lamp itself: from above */
+    normal_t way = to_13_bits(x, y, fix_size(z) | 1); /* at the lamp itself: from above */
     way.z = z < 0 ? -way.z : way.z;
     int32_t dot = n.x * way.x + n.y * way.y + n.z * way.z; /* within 3 * 2^28 */
     if (dot <= 0)
@@ -133,7 +128,7 @@ static inline normal_t normal_of(const yb_point_t *const p[3])
     uint32_t area = (uint32_t)x1 * (uint32_t)y2 - (uint32_t)y1 * (uint32_t)x2;
     int32_t z1 = p[1]->top_q8 - p[0]->top_q8;
     int32_t z2 = p[2]->top_q8 - p[0]->top_q8;
-    const uint32_t rise = size_of(z1) | size_of(z2);
+    const uint32_t rise = fix_size(z1) | fix_size(z2);
     if (!USUAL(rise < (uint32_t)1 << 14)) {
         const int shift = fix_log2_floor(rise) - 13;
         z1 >>= shift;
@@ -181,16 +176,17 @@ static inline int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, no
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
  * does not hide the relief.
  */
-static inline int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t shade)
+COPIED int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t shade)
 {
     const yb_shadow_t *shadow = frame->view.shadow;
     if (shadow == NULL || shade <= DARKEST)
         return shade;
-    /* A third: 21845 / 2^16; a sum of three has 18 bits. */
-    uint32_t x = (p[0]->place & 0xffff) + (p[1]->place & 0xffff) + (p[2]->place & 0xffff);
-    uint32_t y = (p[0]->place >> 16) + (p[1]->place >> 16) + (p[2]->place >> 16);
-    int32_t light =
-        shadow_light(shadow, (int32_t)((x >> 2) * 21845 >> 14), (int32_t)((y >> 2) * 21845 >> 14));
+    /* x and y at once, a quarter of each: sums of three have 16 bits. A third is 21845 / 2^16. */
+    const uint32_t quarters = 0x3fff3fff;
+    const uint32_t sum = (p[0]->place >> 2 & quarters) + (p[1]->place >> 2 & quarters) +
+                         (p[2]->place >> 2 & quarters);
+    const int32_t light = shadow_light(shadow, (int32_t)((sum & 0xffff) * 21845 >> 14),
+                                       (int32_t)((sum >> 16) * 21845 >> 14));
     if (light == SHADOW_NONE)
         return shade;
     return DARKEST + (((shade - DARKEST) * (64 + 3 * light) + 128) >> 8);
@@ -217,25 +213,29 @@ static int hue_of(const yb_frame_t *frame, int32_t z_q8)
     return (int)fix_min((int32_t)(((uint32_t)above * (uint32_t)frame->tone_q16) >> 16), HUES - 1);
 }
 
-/* What a triangle of the ground looks like that has this shade where there are colours or haze. */
+/* What ground that has this shade looks like where there are colours. */
 APART shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3], int32_t shade,
                        int32_t light)
 {
-    const int32_t near = frame->haze_near == 0 ? 0 : nearest_of(corner);
-    int hue = 0;
-    if (frame->screen.format == YB_RGB565) {
-        /* A third: 5461 / 2^14. */
-        int32_t middle = ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
-        hue = hue_of(frame, middle);
-    }
-    return (shade_t){colour_pixel(frame, hue, shade, near), (uint16_t)light};
+    /* A third: 5461 / 2^14. */
+    const int32_t middle =
+        ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
+    const int32_t near = (frame->looks & LOOK_HAZE) == 0 ? 0 : nearest_of(corner);
+    return (shade_t){colour_pixel(frame, hue_of(frame, middle), shade, near), (uint16_t)light};
 }
 
-/* What a triangle looks like where there is more to it than the sun's light, by its normal: x in
- * the lower half and y in the upper one, and z.
+/* Does a triangle lie in the water? */
+static bool is_water(const yb_frame_t *frame, const yb_point_t *const corner[3])
+{
+    const int32_t water = frame->view.water_q8;
+    return corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water;
+}
+
+/* The light where there is more to it than the sun's on ground, by a triangle's normal: x in the
+ * lower half and y in the upper one, and z.
  */
-APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3],
-                      uint32_t normal_xy, int32_t normal_z)
+APART int32_t odd_light(const yb_frame_t *frame, const yb_point_t *const corner[3],
+                        uint32_t normal_xy, int32_t normal_z)
 {
     normal_t normal = {(int16_t)(normal_xy & 0xffff), (int32_t)normal_xy >> 16, normal_z};
     const int32_t water = frame->view.water_q8;
@@ -244,101 +244,111 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
         smooth_normal(slopes_of(corner), &normal);
     if (frame->view.exaggerate_q8 != 256)
         normal = raised(frame, normal);
-    const int32_t light = light_on(frame, corner[0], normal);
+    return light_on(frame, corner[0], normal);
+}
+
+/* What a triangle looks like that has this light. */
+APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3], int32_t light)
+{
+    const uint32_t looks = frame->looks;
     const int32_t shade = shadowed(frame, corner, light);
-    if (corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water)
-        return (shade_t){water_pixel(frame, shade, nearest_of(corner)), (uint16_t)light};
-    if (colour_is_shade(frame))
-        return (shade_t){(uint16_t)shade, (uint16_t)light};
-    return coloured(frame, corner, shade, light);
+    uint16_t pixel = (uint16_t)shade;
+    if ((looks & LOOK_ODD) != 0 && is_water(frame, corner))
+        pixel = water_pixel(frame, shade, nearest_of(corner));
+    else if ((looks & LOOK_COLOURS) != 0)
+        return coloured(frame, corner, shade, light);
+    else if ((looks & LOOK_HAZE) != 0)
+        pixel = colour_grey(frame, shade, nearest_of(corner));
+    return (shade_t){pixel, (uint16_t)light};
 }
 
 shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
     const uint32_t slopes = slopes_of(corner);
     normal_t normal = normal_of(corner);
-    /* Most often the sun's light is all: no lamp, shadow, haze or water. */
-    if (!USUAL(frame->even_water && frame->view.water_q8 == YB_NO_WATER &&
-               frame->view.exaggerate_q8 == 256))
-        return look_of(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
-                       normal.z);
-    if (USUAL(frame->map->smooth))
-        smooth_normal(slopes, &normal);
-    const int32_t light = sun_light(frame, normal);
-    if (!USUAL(frame->screen.format != YB_RGB565))
+    const uint32_t looks = frame->looks;
+    int32_t light;
+    if (USUAL((looks & LOOK_ODD) == 0)) {
+        if (USUAL(frame->smooth))
+            smooth_normal(slopes, &normal);
+        light = sun_light(frame, normal);
+    } else {
+        light = odd_light(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
+                          normal.z);
+    }
+    if (USUAL(looks == 0))
+        return (shade_t){(uint16_t)light, (uint16_t)light};
+    if (looks == LOOK_COLOURS)
         return coloured(frame, corner, light, light);
-    return (shade_t){(uint16_t)light, (uint16_t)light};
+    return look_of(frame, corner, light);
 }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
-/* Heights of a triangle as values of a cut, from `zero` on. False: too high for that. */
-static bool cut_values(const yb_point_t *const p[3], int32_t zero, raster_cut_t *cut)
-{
-    for (int i = 0; i < 3; i++) {
-        int32_t value = p[i]->z_q8 - zero;
-        if (value < 0 || value > 65535)
-            return false;
-        cut->value[i] = value;
-    }
-    cut->value[3] = cut->value[0];
-    cut->value[4] = cut->value[1];
-    return true;
-}
-
 /* What is darker on light ground and lighter on dark; a colour of its own where there are any. */
-static uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
+static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
+    if ((frame->looks & LOOK_COLOURS) != 0)
+        return colour_pixel(frame, hue, shade, near);
     const int32_t contrast = frame->screen.format == YB_MONO ? SHADES : SHADES / 3;
-    if (frame->screen.format != YB_RGB565)
-        shade = shade > SHADES / 3 ? fix_max(shade - contrast, 0)
-                                   : fix_min(shade + contrast, SHADES - 1);
-    return colour_pixel(frame, hue, shade, near);
+    shade =
+        shade > SHADES / 3 ? fix_max(shade - contrast, 0) : fix_min(shade + contrast, SHADES - 1);
+    return colour_grey(frame, shade, near);
 }
 
-/* The shore, where a triangle reaches into the water. */
-static bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t above,
-                      raster_cut_t *cut)
+/* The shore, where a triangle reaches into the water: heights less than 2^16 from that have values
+ * within 2^31.
+ */
+APART bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t above,
+                     raster_cut_t *cut)
 {
     static const normal_t level = {0, 0, 1 << 12};
+    static const lines_scale_t scale = {(uint32_t)1 << 15, 0};
     const int32_t near = nearest_of(p);
     const int32_t flat = shadowed(frame, p, light_on(frame, p[0], level));
-    cut->interval = 0;
-    cut->zero = (int32_t)1 << 15;
     cut->below = water_pixel(frame, flat, near);
     cut->above = above;
     cut->line = line_pixel(frame, HUE_SHORE, SHADES - 1, near);
-    return cut_values(p, frame->view.water_q8 - cut->zero, cut);
+    return lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, p[1]->z_q8 - p[0]->z_q8,
+                      p[2]->z_q8 - p[0]->z_q8,
+                      (uint32_t)(p[0]->z_q8 - frame->view.water_q8) * scale.scale, scale, cut);
+}
+
+/* Contour lines, where a triangle may reach one. */
+APART bool cut_ground(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+                      raster_cut_t *cut)
+{
+    const int32_t z = p[0]->z_q8;
+    const lines_scale_t scale = {frame->contour_inverse, frame->contour_shift};
+    if (!lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, p[1]->z_q8 - z, p[2]->z_q8 - z,
+                    (uint32_t)z * scale.scale + frame->contour_zero, scale, cut))
+        return false;
+    cut->below = cut->above = shade.pixel;
+    cut->line = line_pixel(frame, HUE_LINE, shade.light, nearest_of(p));
+    return true;
 }
 
 bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
                raster_cut_t *cut)
 {
-    const yb_view_t *view = &frame->view;
-    int32_t low = fix_min(p[0]->z_q8, fix_min(p[1]->z_q8, p[2]->z_q8));
-    int32_t high = fix_max(p[0]->z_q8, fix_max(p[1]->z_q8, p[2]->z_q8));
-    if (low < view->water_q8)
-        return high > view->water_q8 && cut_shore(frame, p, shade.pixel, cut);
-    if (frame->contour_inverse == 0)
+    const int32_t z = p[0]->z_q8;
+    const int32_t rise_b = p[1]->z_q8 - z;
+    const int32_t rise_c = p[2]->z_q8 - z;
+    const int32_t low = fix_min(fix_min(rise_b, 0), rise_c);
+    const int32_t high = fix_max(fix_max(rise_b, 0), rise_c);
+    const uint32_t range = (uint32_t)(high - low);
+    if (!USUAL(z + low >= frame->view.water_q8))
+        return z + high > frame->view.water_q8 && range < (uint32_t)1 << 16 &&
+               cut_shore(frame, p, shade.pixel, cut);
+    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
+     * is no more than a quarter of a triangle that has pixels. What is above the highest line below
+     * the top is less than all. */
+    const uint32_t span = range * frame->contour_inverse;
+    const uint32_t top = (uint32_t)(z + high) * frame->contour_inverse + frame->contour_zero;
+    if (range >= frame->contour_few ? range >= (uint32_t)1 << 16
+                                    : top + (span >> 2) > span + (span >> 1))
         return false;
-    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. */
-    int32_t margin = ((high - low) >> 2) + 1;
-    low -= margin;
-    high += margin;
-    /* The line below: 2^21 / 2^4 times 2^20 / YB_LEAST_CONTOUR_Q8 is below 2^32, and the quotient
-     * is at most 4 too small. */
-    uint32_t above = (uint32_t)(low - frame->contour_low);
-    uint32_t interval = (uint32_t)view->contour_q8;
-    uint32_t line = ((above >> 4) * frame->contour_inverse >> 16) * interval;
-    while (above - line >= interval)
-        line += interval;
-    if ((uint32_t)(high - frame->contour_low) < line + interval)
-        return false;
-    cut->interval = (int32_t)interval;
-    cut->zero = 0;
-    cut->below = cut->above = shade.pixel;
-    cut->line = line_pixel(frame, HUE_LINE, shade.light, nearest_of(p));
-    return cut_values(p, frame->contour_low + (int32_t)line, cut);
+    return cut_ground(frame, p, shade, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)

@@ -12,12 +12,15 @@ static inline int shadow_cell_shift(const yb_shadow_t *shadow)
     return 16 - fix_log2_floor(shadow->side);
 }
 
-/* A cell, and the one `step` further on: none, one or both of two bits. */
-static inline uint32_t shadow_pair(const yb_shadow_t *shadow, int32_t cell, int32_t step)
+/* A place between the middles of the first and the last cell, in eighths of a cell: there, and at
+ * all of them alike, the rest of the map has what the nearest of these has.
+ */
+static inline int32_t shadow_within(int32_t at, int32_t cells)
 {
-    const int32_t next = cell + step;
-    return (uint32_t)(shadow->lit[cell >> 3] >> (cell & 7) & 1) |
-           (uint32_t)(shadow->lit[next >> 3] >> (next & 7) & 1) << 1;
+    const int32_t end = 8 * cells - 8;
+    if ((uint32_t)at < (uint32_t)end)
+        return at;
+    return at < 0 || end == 0 ? 0 : end - 1;
 }
 
 enum {
@@ -29,25 +32,27 @@ enum {
  */
 static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
 {
-    int shift = shadow_cell_shift(shadow);
-    /* From the middle of a cell to the middle of the next, in eighths; from the grid's rim on,
-     * none.
-     */
-    int32_t x = fix_max((x_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3), 0);
-    int32_t y = fix_max((y_q8 - ((int32_t)1 << (shift - 1))) >> (shift - 3), 0);
-    int32_t i = fix_min(x >> 3, shadow->columns - 1);
-    int32_t j = fix_min(y >> 3, shadow->rows - 1);
-    int32_t to_east = i < shadow->columns - 1 ? 1 : 0;
-    int32_t to_north = j < shadow->rows - 1 ? shadow->side : 0;
-    int32_t cell = j * shadow->side + i;
-    uint32_t south = shadow_pair(shadow, cell, to_east);
-    uint32_t north = shadow_pair(shadow, cell + to_north, to_east);
-    if (south == north && (south == 0 || south == 3))
-        return south == 0 ? 0 : SHADOW_NONE;
-    int32_t east = x & 7;
-    int32_t south_row = (int32_t)(south & 1) * (8 - east) + (int32_t)(south >> 1) * east;
-    int32_t north_row = (int32_t)(north & 1) * (8 - east) + (int32_t)(north >> 1) * east;
-    return south_row * (8 - (y & 7)) + north_row * (y & 7);
+    const int shift = shadow_cell_shift(shadow) - 3;
+    const int32_t side = shadow->side;
+    const int32_t x = shadow_within((x_q8 >> shift) - 4, shadow->columns);
+    const int32_t y = shadow_within((y_q8 >> shift) - 4, shadow->rows);
+    /* A cell and the one to the east of it are two bits of a byte, or one each of two bytes. The
+     * cells to the north of these: 16 bits up. */
+    const int32_t cell = (y >> 3) * side + (x >> 3);
+    const uint8_t *south = &shadow->lit[cell >> 3];
+    const uint8_t *north = south + (side >> 3);
+    uint32_t bits = south[0] | (uint32_t)north[0] << 16;
+    if ((cell & 7) == 7)
+        bits |= (uint32_t)south[1] << 8 | (uint32_t)north[1] << 24;
+    bits = bits >> (cell & 7) & 0x30003;
+    if (bits == 0x30003)
+        return SHADOW_NONE;
+    if (bits == 0)
+        return 0;
+    const uint32_t east = (uint32_t)x & 7;
+    const uint32_t up = (uint32_t)y & 7;
+    const uint32_t rows = (bits & 0x10001) * (8 - east) + (bits >> 1 & 0x10001) * east;
+    return (int32_t)((rows & 0xffff) * (8 - up) + (rows >> 16) * up);
 }
 
 #endif

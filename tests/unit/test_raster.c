@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "fix.h"
+#include "lines.h"
 #include "pixels.h"
 #include "raster.h"
 #include "rng.h"
@@ -284,6 +285,21 @@ static void slopes_are_nearly_exact(void **state)
     }
 }
 
+/* Lines where a value is `zero`, or that and a multiple of the interval, if there is one. False:
+ * too many.
+ */
+static bool find_lines(const yb_spot_t p[3], const int32_t value[3], int32_t zero, int32_t interval,
+                       raster_cut_t *cut)
+{
+    lines_scale_t scale = {(uint32_t)1 << 15, 0};
+    if (interval > 0) {
+        scale.scale = UINT32_MAX / (uint32_t)interval + 1;
+        scale.shift = fix_log2_floor(scale.scale) - 15;
+    }
+    return lines_find(&p[0], &p[1], &p[2], value[1] - value[0], value[2] - value[0],
+                      (uint32_t)(value[0] - zero) * scale.scale, scale, cut);
+}
+
 /* Small triangles are drawn in two ways: where they lie, and whether lines cross them, decides. */
 static void both_ways_are_the_same(void **state)
 {
@@ -298,25 +314,25 @@ static void both_ways_are_the_same(void **state)
         const int x = rng_range(&rng, 0, WIDTH * 16);
         const int y = rng_range(&rng, 0, HEIGHT * 16);
         raster_cut_t cut = {.below = 3, .above = 3, .line = 14};
+        int32_t value[3];
         yb_spot_t p[3];
         for (int i = 0; i < 3; i++) {
             p[i].x_q4 = fix_clamp(x + rng_range(&rng, -size, size), 0, WIDTH * 16);
             p[i].y_q4 = y + rng_range(&rng, -size, size);
             p[i].near = (uint16_t)rng_range(&rng, 100, 60000);
-            cut.value[i] = rng_range(&rng, 20000, 45000);
+            value[i] = rng_range(&rng, 20000, 45000);
         }
-        cut.value[3] = cut.value[0];
-        cut.value[4] = cut.value[1];
-        cut.interval = round % 2 == 0 ? rng_range(&rng, 2000, 60000) : 0;
-        cut.zero = round % 2 == 0 ? 0 : 30000;
+        const int32_t interval = round % 2 == 0 ? rng_range(&rng, 2000, 60000) : 0;
+        const int32_t zero = round % 2 == 0 ? 0 : 30000;
         if (round % 3 == 0) {
             cut.below = cut.above = 3 | PIXELS_DRAWN;
             cut.line = 14 | PIXELS_DRAWN;
         }
-        const raster_cut_t *lines = round % 4 < 2 ? &cut : NULL;
         raster_shape_t shape;
         if (raster_front(&p[0], &p[1], &p[2], &shape) != RASTER_SMALL)
             continue;
+        const bool cuts = round % 4 < 2 && find_lines(p, value, zero, interval, &cut);
+        const raster_cut_t *const lines = cuts ? &cut : NULL;
         page_t page;
         const int rows = rng_range(&rng, 1, HEIGHT);
         const int first = rng_range(&rng, 0, HEIGHT - rows);
@@ -424,38 +440,37 @@ static void lines_lie_where_they_should(void **state)
     for (int round = 0; round < 3000; round++) {
         yb_spot_t p[3];
         raster_cut_t cut = {.below = 3, .above = round % 2 == 0 ? 3 : 9, .line = 14};
+        int32_t value[3];
         for (int i = 0; i < 3; i++) {
             p[i].x_q4 = rng_range(&rng, -100, WIDTH * 16 + 100);
             p[i].y_q4 = rng_range(&rng, -100, HEIGHT * 16 + 100);
             p[i].near = (uint16_t)(rng_range(&rng, 100, 60000));
-            cut.value[i] = rng_range(&rng, 20000, 45000);
+            value[i] = rng_range(&rng, 20000, 45000);
         }
-        cut.value[3] = cut.value[0];
-        cut.value[4] = cut.value[1];
         if (-twice_area(&p[0], &p[1], &p[2]) < 20000)
             continue;
-        if (round % 2 == 0)
-            cut.interval = rng_range(&rng, 10000, 30000);
-        else
-            cut.zero = rng_range(&rng, 20000, 45000);
+        const int32_t interval = round % 2 == 0 ? rng_range(&rng, 10000, 30000) : 0;
+        const int32_t zero = round % 2 == 0 ? 0 : rng_range(&rng, 20000, 45000);
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
         raster_shape_t shape;
         if (raster_front(&p[0], &p[1], &p[2], &shape) == RASTER_NOTHING)
             continue;
-        raster_plane(&page.raster, &shape, 5, &cut);
+        const bool cuts = find_lines(p, value, zero, interval, &cut);
+        assert_true(cuts || interval > 0);
+        raster_plane(&page.raster, &shape, 5, cuts ? &cut : NULL);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             if (pixel_at(&page, i % WIDTH, i / WIDTH) == 0)
                 continue;
-            const slope_t slope = slope_of(p, cut.value, i % WIDTH, i / WIDTH);
+            const slope_t slope = slope_of(p, value, i % WIDTH, i / WIDTH);
             const double half = fmax(fabs(slope.along_x), fabs(slope.along_y)) / 2;
-            double off = slope.at - cut.zero;
-            if (cut.interval > 0)
-                off = remainder(off, cut.interval);
+            double off = slope.at - zero;
+            if (interval > 0)
+                off = remainder(off, interval);
             const int pixel = pixel_at(&page, i % WIDTH, i / WIDTH);
             pixels_seen++;
-            if (cut.interval > 0 && half > cut.interval / 8.0 * 0.9) { /* too dense, or nearly */
-                CHECK(half < cut.interval / 8.0 * 1.1 || pixel == 5, "round %d: too dense", round);
+            if (interval > 0 && half > interval / 8.0 * 0.9) { /* too dense, or nearly */
+                CHECK(half < interval / 8.0 * 1.1 || pixel == 5, "round %d: too dense", round);
                 continue;
             }
             if (fabs(fabs(off) - half) < 4 + half / 50) {

@@ -586,11 +586,13 @@ typedef struct {
      * processors reach no farther. */
     uint8_t eye_shift;
     uint8_t lift_shift;
-    uint8_t row_shift; /* rows are binned by so many bits: at most 16 bins */
-    bool even_water;   /* nothing shades it: it need not be split */
-    bool lines;        /* there may be any on the ground */
-    bool smooth;       /* as the map's */
-    int16_t lift;      /* pixels that one unit of height rises on the screen, by 1/depth */
+    uint8_t row_shift;     /* rows are binned by so many bits: at most 16 bins */
+    bool even_water;       /* nothing shades it: it need not be split */
+    bool lines;            /* there may be any on the ground */
+    bool smooth;           /* as the map's */
+    uint8_t looks;         /* what there is besides the sun's light: see colour.h */
+    uint8_t contour_shift; /* which leaves 16 bits of contour_inverse */
+    int16_t lift;          /* pixels that one unit of height rises on the screen, by 1/depth */
     yb_screen_t screen;
     const yb_map_t *map;
     const uint16_t *noise; /* the map's, or NULL: it has no detail … */
@@ -608,8 +610,9 @@ typedef struct {
     int32_t along_x, along_y, across_x, across_y; /* foreshortening of plan lengths, Q13 */
     int32_t haze_near, haze_q16;                  /* 1/depth where haze begins; 256 over that */
     int32_t tone_q16;                             /* hues per height unit */
-    int32_t contour_low;      /* a contour line's height below all of them, … */
-    uint32_t contour_inverse; /* … and 2^20 over their interval */
+    uint32_t contour_inverse; /* 2^32 over the interval of contour lines, 0: none, … */
+    uint32_t contour_zero;    /* … and what a height has added when multiplied by that */
+    uint32_t contour_few;     /* two thirds of the interval */
     int32_t base_q8;          /* where the walls end */
     int32_t sway_x_q4; /* farthest that one unit of height moves a point on the screen, … */
     int32_t sway_y_q4; /* … by 1/depth: see refine.c */
