@@ -2,6 +2,7 @@
 
 #include "fix.h"
 #include "mesh.h"
+#include "relief.h"
 
 /* yb_frame_t.order_for. Lines of sight that go round the eye may meet triangles in a circle, each
  * in front of the next; those that go ahead of it, or back, cannot, for then there is a last one.
@@ -21,36 +22,44 @@ void order_begin(yb_frame_t *frame)
     frame->order_for = FOR_NOTHING;
 }
 
-/* How far the eye is to the left of the line from a to b, times its length: below 0, to its right;
- * of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of eighths, so that
- * in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is below 2^31.
+/* How far the eye is to the left of the line from a place to another, times its length: below 0, to
+ * its right; of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of
+ * eighths, so that in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is
+ * below 2^31.
  */
-static inline int32_t left_of(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+static inline int32_t left_of(const yb_frame_t *frame, uint32_t a, uint32_t b)
 {
-    const int32_t dx = fix_minus(b->x_q8, a->x_q8);
-    const int32_t dy = fix_minus(b->y_q8, a->y_q8);
 #if YB_MAX_VERTICES <= 255
-    return (dx >> 5) * (frame->eye_y_q6 - (a->y_q8 >> 2)) -
-           (dy >> 5) * (frame->eye_x_q6 - (a->x_q8 >> 2));
+    const int32_t x = (int32_t)((a & 0xffff) >> 5);
+    const int32_t y = (int32_t)(a >> 21);
+    const int32_t dx = (int32_t)((b & 0xffff) >> 5) - x;
+    const int32_t dy = (int32_t)(b >> 21) - y;
+    return dx * (frame->eye_y_q6 - y * 8) - dy * (frame->eye_x_q6 - x * 8);
 #else
     /* Of a map in full detail it may be rounded: away from 0, so that the sign stays. */
-    const int64_t left = (int64_t)dx * (frame->eye_y_q6 * 4 - a->y_q8) -
-                         (int64_t)dy * (frame->eye_x_q6 * 4 - a->x_q8);
+    const int32_t x = (int32_t)(a & 0xffff);
+    const int32_t y = (int32_t)(a >> 16);
+    const int64_t left = (int64_t)relief_dx(a, b) * (frame->eye_y_q6 * 4 - y) -
+                         (int64_t)relief_dy(a, b) * (frame->eye_x_q6 * 4 - x);
     return (int32_t)((left + (left > 0 ? 127 : 0)) >> 7);
 #endif
 }
 
-void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part)
+/* left_of of the sides of a triangle, each by the corner that is not on it. */
+APART void find_left(const yb_frame_t *frame, uint32_t a, uint32_t b, uint32_t c, int32_t left[3])
 {
-    const yb_map_t *map = frame->map;
-    const yb_index_t *corner = yb_map_triangle(map, triangle);
-    const yb_vertex_t *const a = &map->vertex[corner[0]];
-    const yb_vertex_t *const b = &map->vertex[corner[1]];
-    const yb_vertex_t *const c = &map->vertex[corner[2]];
+    left[0] = left_of(frame, b, c);
+    left[1] = left_of(frame, c, a);
+    left[2] = left_of(frame, a, b);
+}
+
+void order_root(const yb_frame_t *frame, yb_part_t *part)
+{
+    find_left(frame, part->point[0]->place, part->point[1]->place, part->point[2]->place,
+              part->eye);
     /* Halves: sums of two, and those of the long parts of thin triangles, are below 2^31. */
-    part->eye[0] = left_of(frame, b, c) >> 1;
-    part->eye[1] = left_of(frame, c, a) >> 1;
-    part->eye[2] = left_of(frame, a, b) >> 1;
+    for (int i = 0; i < 3; i++)
+        part->eye[i] >>= 1;
 }
 
 /* Does a vertex lie where lines of sight ahead, or back, go? Products are within 2^19 * 2^12. */
@@ -74,15 +83,18 @@ enum {
 static uint8_t hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
                         yb_across_t across)
 {
+    const yb_vertex_t *const vertex = frame->map->vertex;
+    int32_t left[3];
+    find_left(frame, relief_place(&vertex[corner[0]]), relief_place(&vertex[corner[1]]),
+              relief_place(&vertex[corner[2]]), left);
     unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
-        const yb_vertex_t *a = &frame->map->vertex[corner[i]];
-        const yb_vertex_t *b = &frame->map->vertex[corner[next3(i)]];
-        if ((across & NO_TRIANGLE) == NO_TRIANGLE ||
-            (which != FOR_ALL && !lies_there(frame, which, a) && !lies_there(frame, which, b)))
+        const int32_t to = left[i == 0 ? 2 : i - 1];
+        if (to == 0 || (across & NO_TRIANGLE) == NO_TRIANGLE ||
+            (which != FOR_ALL && !lies_there(frame, which, &vertex[corner[i]]) &&
+             !lies_there(frame, which, &vertex[corner[next3(i)]])))
             continue;
-        const int32_t left = left_of(frame, a, b);
-        found += left < 0 ? HIDDEN : left > 0 ? 1u << i : 0;
+        found += to < 0 ? HIDDEN : 1u << i;
     }
     return (uint8_t)found;
 }

@@ -25,6 +25,6 @@ void order_begin(yb_frame_t *frame);
 int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end);
 
 /* Where the eye is, for a base triangle. */
-void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part);
+void order_root(const yb_frame_t *frame, yb_part_t *part);
 
 #endif

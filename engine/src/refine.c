@@ -299,7 +299,7 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
     part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
     part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, part->point) : 0;
-    order_root(frame, triangle, part);
+    order_root(frame, part);
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */
@@ -321,14 +321,22 @@ static inline void halve(const yb_frame_t *frame, const yb_point_t *a, const yb_
     }
 }
 
+/* The corner after another one. */
+static inline int after(int i)
+{
+    return i == 2 ? 0 : i + 1;
+}
+
 /* Is a triangle to become many and yet seen as little more than a line? What is inside it is left
  * whole: else a sliver that is to become n pieces along its sides would become n times n.
  */
-static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part)
+static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part, int i)
 {
-    const yb_spot_t *a = &part->point[0]->spot;
-    const yb_spot_t *b = &part->point[1]->spot;
-    const yb_spot_t *c = &part->point[2]->spot;
+    const int j = after(i);
+    const int k = after(j);
+    const yb_spot_t *a = &part->point[i]->spot;
+    const yb_spot_t *b = &part->point[j]->spot;
+    const yb_spot_t *c = &part->point[k]->spot;
     if (refine_edges(part) < 4 * REFINE_ONCE || a->near == 0 || b->near == 0 || c->near == 0)
         return false;
     const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
@@ -365,43 +373,52 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     return (mc & 0xffffff) | (yb_edge_t)often << 24;
 }
 
+/* Of a triangle that is to be split, the corner a from which of the edges that are split ab is the
+ * first.
+ */
+static inline int first_corner(const yb_part_t *part)
+{
+    if (part->edge[0] < REFINE_ONCE)
+        return part->edge[1] < REFINE_ONCE ? 2 : 1;
+    return part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE ? 2 : 0;
+}
+
 /* How far the eye would be from a side if it were half way to the corner. */
 static inline int32_t half_way(const yb_part_t *part)
 {
     return (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
 }
 
-/* Turns a triangle whose edges are all split so that the part with its corner b comes last: of the
- * three outer parts at most two lie on the eye's side of their inner edges. The answer is half_way.
+/* Of a triangle whose edges are all split, the corner a that has the part with its corner b come
+ * last: of the three outer parts at most two lie on the eye's side of their inner edges.
  */
-static int32_t put_last(yb_part_t *part)
+static inline int corner_before_last(const yb_part_t *part, int32_t half)
 {
-    const int32_t half = half_way(part);
-    for (int i = 0; i < 2 && part->eye[1] > half; i++)
-        refine_rotate(part);
-    return half;
+    return part->eye[1] <= half ? 0 : part->eye[2] <= half ? 1 : 2;
 }
 
 /* As SPEC 3.4, the parts in the order of order.h. A part that is laid aside needs no midpoint above
  * its own place on the stack, or one and the next place's as its last corner.
  */
 static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
-                             yb_level_t *level)
+                             yb_level_t *level, int i)
 {
-    const yb_point_t *const a = part->point[0];
-    const yb_point_t *const b = part->point[1];
-    const yb_point_t *const c = part->point[2];
-    const yb_edge_t bc = part->edge[1];
-    const yb_edge_t ca = part->edge[2];
-    const int32_t eye_a = part->eye[0];
-    const int32_t eye_b = part->eye[1];
-    const int32_t eye_c = part->eye[2] >> 1;
+    const int j = after(i);
+    const int k = after(j);
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
+    const yb_edge_t bc = part->edge[j];
+    const yb_edge_t ca = part->edge[k];
+    const int32_t eye_a = part->eye[i];
+    const int32_t eye_b = part->eye[j];
+    const int32_t eye_c = part->eye[k] >> 1;
     const int32_t bulge = part->bulge;
     yb_point_t *const m = &level[0].middle;
     yb_edge_t am;
     yb_edge_t mb;
-    refine_middle(frame, view, a, b, part->edge[0], m);
-    halve(frame, a, m, b, part->edge[0], &am, &mb);
+    refine_middle(frame, view, a, b, part->edge[i], m);
+    halve(frame, a, m, b, part->edge[i], &am, &mb);
     const int32_t across = (eye_a - eye_b) >> 1;
     const bool a_first = eye_a > eye_b;
     yb_part_t *const with_a = a_first ? part : &level[0].rest;
@@ -414,16 +431,18 @@ static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view,
 }
 
 static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
-                             yb_level_t *level, yb_edge_t inside)
+                             yb_level_t *level, yb_edge_t inside, int i)
 {
-    const yb_point_t *const a = part->point[0];
-    const yb_point_t *const b = part->point[1];
-    const yb_point_t *const c = part->point[2];
-    const yb_edge_t bc = part->edge[1];
-    const yb_edge_t ca = part->edge[2];
-    const int32_t eye_a = part->eye[0];
-    const int32_t eye_b = part->eye[1];
-    const int32_t eye_c = part->eye[2];
+    const int j = after(i);
+    const int k = after(j);
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
+    const yb_edge_t bc = part->edge[j];
+    const yb_edge_t ca = part->edge[k];
+    const int32_t eye_a = part->eye[i];
+    const int32_t eye_b = part->eye[j];
+    const int32_t eye_c = part->eye[k];
     const int32_t half = half_way(part);
     const int32_t bulge = part->bulge;
     yb_point_t *const m = &level[0].middle;
@@ -432,9 +451,9 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
     yb_edge_t mb;
     yb_edge_t bn;
     yb_edge_t nc;
-    refine_middle(frame, view, a, b, part->edge[0], m);
+    refine_middle(frame, view, a, b, part->edge[i], m);
     refine_middle(frame, view, b, c, bc, n);
-    halve(frame, a, m, b, part->edge[0], &am, &mb);
+    halve(frame, a, m, b, part->edge[i], &am, &mb);
     halve(frame, b, n, c, bc, &bn, &nc);
     const yb_edge_t mc = cross_edge(frame, m, c, bc) & inside;
     yb_part_t *const with_b = eye_b > half ? part : &level[0].rest;
@@ -452,16 +471,19 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
 static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                                yb_level_t *level, yb_edge_t inside)
 {
-    const int32_t half = put_last(part);
-    const yb_point_t *const a = part->point[0];
-    const yb_point_t *const b = part->point[1];
-    const yb_point_t *const c = part->point[2];
-    const yb_edge_t ab = part->edge[0];
-    const yb_edge_t bc = part->edge[1];
-    const yb_edge_t ca = part->edge[2];
-    const int32_t eye_a = part->eye[0];
-    const int32_t eye_b = part->eye[1];
-    const int32_t eye_c = part->eye[2];
+    const int32_t half = half_way(part);
+    const int i = corner_before_last(part, half);
+    const int j = after(i);
+    const int k = after(j);
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
+    const yb_edge_t ab = part->edge[i];
+    const yb_edge_t bc = part->edge[j];
+    const yb_edge_t ca = part->edge[k];
+    const int32_t eye_a = part->eye[i];
+    const int32_t eye_b = part->eye[j];
+    const int32_t eye_c = part->eye[k];
     const int32_t bulge = part->bulge >> 2;
     yb_point_t *const m = &level[0].middle;
     yb_point_t *const n = &level[1].middle;
@@ -500,26 +522,13 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level)
 {
-    refine_turn(part);
-    if (part->edge[1] < REFINE_ONCE)
-        return split_one(frame, view, part, level);
-    const yb_edge_t inside = is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
-    if (part->edge[2] < REFINE_ONCE)
-        return split_two(frame, view, part, level, inside);
+    const int i = first_corner(part);
+    if (part->edge[after(i)] < REFINE_ONCE)
+        return split_one(frame, view, part, level, i);
+    const yb_edge_t inside = is_sliver(frame, part, i) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
+    if (part->edge[after(after(i))] < REFINE_ONCE)
+        return split_two(frame, view, part, level, inside, i);
     return split_three(frame, view, part, level, inside);
-}
-
-bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part)
-{
-    for (yb_level_t *level = *top; level-- != bottom;) {
-        if (level->rest.point[0] == NULL)
-            continue;
-        *part = level->rest;
-        level->rest.point[0] = NULL;
-        *top = level + (part->point[2] == &level[1].middle ? 2 : 1);
-        return true;
-    }
-    return false;
 }
 
 /* --- Drawing ---------------------------------------------------------------------------------- */
@@ -592,53 +601,26 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
 }
 
-/* A triangle whose edges are split once or not at all: as refine_split, and its parts in the order
- * of refine_next, none of which needs a place on the stack.
- */
-static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
+/* A triangle whose edges are all split once. */
+APART void draw_four(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
 {
     yb_frame_t *frame = walk->frame;
     const refine_view_t *view = walk->view;
-    refine_turn(part);
-    const bool two = part->edge[1] >= REFINE_ONCE;
-    const bool three = part->edge[2] >= REFINE_ONCE;
-    frame->stats.refined += three ? 4 : two ? 3 : 2;
-    if (walk->raster == NULL)
-        return;
-    const int32_t half = three ? put_last(part) : half_way(part);
-    const int32_t *eye = part->eye;
-    const yb_point_t *a = part->point[0];
-    const yb_point_t *b = part->point[1];
-    const yb_point_t *c = part->point[2];
+    const int32_t half = half_way(part);
+    const int i = corner_before_last(part, half);
+    const int j = after(i);
+    const int k = after(j);
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
     yb_point_t *const m = &level[0].middle;
-    refine_middle(frame, view, a, b, part->edge[0], m);
-    bool a_first = eye[0] > eye[1];
-    if (!two) {
-        if (a_first)
-            leaf(walk, c, a, m);
-        leaf(walk, b, c, m);
-        if (!a_first)
-            leaf(walk, c, a, m);
-        return;
-    }
     yb_point_t *const n = &level[1].middle;
-    refine_middle(frame, view, b, c, part->edge[1], n);
-    if (!three) {
-        if (eye[1] > half)
-            leaf(walk, m, b, n);
-        if (a_first)
-            leaf(walk, c, a, m);
-        leaf(walk, c, m, n);
-        if (!a_first)
-            leaf(walk, c, a, m);
-        if (eye[1] <= half)
-            leaf(walk, m, b, n);
-        return;
-    }
     yb_point_t *const o = &level[2].middle;
-    refine_middle(frame, view, c, a, part->edge[2], o);
-    a_first = eye[0] > half;
-    const bool c_first = eye[2] > half;
+    refine_middle(frame, view, a, b, part->edge[i], m);
+    refine_middle(frame, view, b, c, part->edge[j], n);
+    refine_middle(frame, view, c, a, part->edge[k], o);
+    const bool a_first = part->eye[i] > half;
+    const bool c_first = part->eye[k] > half;
     if (a_first)
         leaf(walk, a, m, o);
     if (c_first)
@@ -651,35 +633,84 @@ static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
     leaf(walk, m, b, n);
 }
 
+/* A triangle whose edges are split once or not at all: as refine_split, and its parts in the order
+ * of refine_next, none of which needs a place on the stack.
+ */
+APART void draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
+{
+    yb_frame_t *frame = walk->frame;
+    const refine_view_t *view = walk->view;
+    const int i = first_corner(part);
+    const int j = after(i);
+    const int k = after(j);
+    const bool two = part->edge[j] >= REFINE_ONCE;
+    const bool three = two && part->edge[k] >= REFINE_ONCE;
+    frame->stats.refined += three ? 4 : two ? 3 : 2;
+    if (walk->raster == NULL)
+        return;
+    if (three) {
+        draw_four(walk, part, level);
+        return;
+    }
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
+    yb_point_t *const m = &level[0].middle;
+    refine_middle(frame, view, a, b, part->edge[i], m);
+    const bool a_first = part->eye[i] > part->eye[j];
+    if (!two) {
+        if (a_first)
+            leaf(walk, c, a, m);
+        leaf(walk, b, c, m);
+        if (!a_first)
+            leaf(walk, c, a, m);
+        return;
+    }
+    yb_point_t *const n = &level[1].middle;
+    refine_middle(frame, view, b, c, part->edge[j], n);
+    const bool b_first = part->eye[j] > half_way(part);
+    if (b_first)
+        leaf(walk, m, b, n);
+    if (a_first)
+        leaf(walk, c, a, m);
+    leaf(walk, c, m, n);
+    if (!a_first)
+        leaf(walk, c, a, m);
+    if (!b_first)
+        leaf(walk, m, b, n);
+}
+
 /* Refines a base triangle and draws what it becomes. */
 static void draw_root(const walk_t *walk, yb_triangle_t triangle)
 {
     yb_frame_t *frame = walk->frame;
     yb_level_t *top = frame->level;
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
-    yb_part_t part;
-    refine_root(frame, walk->view, triangle, &part);
+    yb_part_t root;
+    yb_part_t *part = &root;
+    refine_root(frame, walk->view, triangle, part);
     do {
         if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
             return; /* counted enough: too many */
-        while (refine_splits(&part)) {
-            if (refine_part_misses(frame, walk->view, &part))
+        while (refine_splits(part)) {
+            if (refine_part_misses(frame, walk->view, part))
                 goto next;
             if (top > last) {
                 frame->stats.depth_limited++;
                 break;
             }
-            if (refine_edges(&part) < 2 * REFINE_ONCE) {
-                draw_last(walk, &part, top);
+            if (refine_edges(part) < 2 * REFINE_ONCE) {
+                draw_last(walk, part, top);
                 goto next;
             }
-            top = refine_split(frame, walk->view, &part, top);
+            top = refine_split(frame, walk->view, part, top);
         }
         frame->stats.refined++;
         if (walk->raster != NULL)
-            leaf(walk, part.point[0], part.point[1], part.point[2]);
-    next:;
-    } while (refine_next(frame->level, &top, &part));
+            leaf(walk, part->point[0], part->point[1], part->point[2]);
+    next:
+        part = refine_next(frame->level, &top, part);
+    } while (part != NULL);
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)

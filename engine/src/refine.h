@@ -126,34 +126,8 @@ static inline bool refine_splits(const yb_part_t *part)
     return refine_edges(part) >= REFINE_ONCE;
 }
 
-/* Begins a triangle with its next corner. */
-static inline void refine_rotate(yb_part_t *part)
-{
-    const yb_point_t *p = part->point[0];
-    const yb_edge_t edge = part->edge[0];
-    const int32_t eye = part->eye[0];
-    part->point[0] = part->point[1];
-    part->point[1] = part->point[2];
-    part->point[2] = p;
-    part->edge[0] = part->edge[1];
-    part->edge[1] = part->edge[2];
-    part->edge[2] = edge;
-    part->eye[0] = part->eye[1];
-    part->eye[1] = part->eye[2];
-    part->eye[2] = eye;
-}
-
-/* Turns a triangle that is to be split so that of the edges that are split ab is the first. */
-static inline void refine_turn(yb_part_t *part)
-{
-    while (part->edge[0] < REFINE_ONCE ||
-           (part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE)) {
-        refine_rotate(part);
-    }
-}
-
-/* Splits a triangle that is to be split: into the part that comes first, and what is laid aside
- * from `level` on, REFINE_PIECES at most. The answer is what follows it.
+/* Splits a triangle that is to be split: into the part that comes first, in its place, and what is
+ * laid aside from `level` on, REFINE_PIECES at most. The answer is what follows it.
  */
 enum {
     REFINE_PIECES = 3
@@ -161,8 +135,20 @@ enum {
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level);
 
-/* Takes up what was laid aside last, between `bottom` and *top; false: there is nothing left. */
-bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part);
+/* Of a part that is done with, the next: what was laid aside last, between `bottom` and *top; NULL:
+ * there is nothing left. It stays where it was laid aside until it is done with itself.
+ */
+static inline yb_part_t *refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *done)
+{
+    done->point[0] = NULL;
+    for (yb_level_t *level = *top; level-- != bottom;) {
+        if (level->rest.point[0] == NULL)
+            continue;
+        *top = level + (level->rest.point[2] == &level[1].middle ? 2 : 1);
+        return &level->rest;
+    }
+    return NULL;
+}
 
 /* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is
  * all rows.

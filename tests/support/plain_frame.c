@@ -67,9 +67,8 @@ static void walk(walk_t *at, yb_part_t part, int used)
     }
     yb_level_t rest[REFINE_PIECES];
     yb_level_t *top = refine_split(at->frame, at->view, &part, rest);
-    do {
-        walk(at, part, used + (int)(top - rest));
-    } while (refine_next(rest, &top, &part));
+    for (yb_part_t *next = &part; next != NULL; next = refine_next(rest, &top, next))
+        walk(at, *next, used + (int)(top - rest));
 }
 
 uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)

@@ -156,9 +156,8 @@ static void descend(bounds_t *bounds, yb_part_t part)
     if (splits) {
         yb_level_t rest[REFINE_PIECES];
         yb_level_t *top = refine_split(&frame, &bounds->view, &part, rest);
-        do {
-            descend(bounds, part);
-        } while (refine_next(rest, &top, &part));
+        for (yb_part_t *next = &part; next != NULL; next = refine_next(rest, &top, next))
+            descend(bounds, *next);
     }
     bounds->depth--;
 }
@@ -203,9 +202,8 @@ static void check_bins(int t, yb_part_t part)
         return;
     yb_level_t rest[REFINE_PIECES];
     yb_level_t *top = refine_split(&frame, plain_view(&frame), &part, rest);
-    do {
-        check_bins(t, part);
-    } while (refine_next(rest, &top, &part));
+    for (yb_part_t *next = &part; next != NULL; next = refine_next(rest, &top, next))
+        check_bins(t, *next);
 }
 
 static void bins_hold_their_triangles(void **state)
