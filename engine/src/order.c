@@ -45,26 +45,32 @@ static inline int32_t left_of(const yb_frame_t *frame, uint32_t a, uint32_t b)
 #endif
 }
 
-/* left_of of the sides of a triangle, each by the corner that is not on it. */
-APART void find_left(const yb_frame_t *frame, uint32_t a, uint32_t b, uint32_t c, int32_t left[3])
+/* left_of of a triangle's edges. */
+APART void find_left(const yb_frame_t *frame, const yb_index_t *corner, int32_t left[3])
 {
-    left[0] = left_of(frame, b, c);
-    left[1] = left_of(frame, c, a);
-    left[2] = left_of(frame, a, b);
+    const yb_vertex_t *const vertex = frame->map->vertex;
+    uint32_t end = relief_place(&vertex[corner[0]]);
+    for (int i = 2; i >= 0; i--) {
+        const uint32_t from = relief_place(&vertex[corner[i]]);
+        left[i] = left_of(frame, from, end);
+        end = from;
+    }
 }
 
-void order_root(const yb_frame_t *frame, yb_part_t *part)
+void order_root(const yb_frame_t *frame, const yb_index_t *corner, yb_part_t *part)
 {
-    find_left(frame, part->point[0]->place, part->point[1]->place, part->point[2]->place,
-              part->eye);
+    int32_t left[3];
+    find_left(frame, corner, left);
     /* Halves: sums of two, and those of the long parts of thin triangles, are below 2^31. */
-    for (int i = 0; i < 3; i++)
-        part->eye[i] >>= 1;
+    part->eye[0] = left[1] >> 1;
+    part->eye[1] = left[2] >> 1;
+    part->eye[2] = left[0] >> 1;
 }
 
 /* Does a vertex lie where lines of sight ahead, or back, go? Products are within 2^19 * 2^12. */
-static bool lies_there(const yb_frame_t *frame, int which, const yb_vertex_t *v)
+static bool lies_there(const yb_frame_t *frame, int which, yb_index_t i)
 {
+    const yb_vertex_t *const v = &frame->map->vertex[i];
     /* The way that the camera looks, in plan, also if it looks straight down. */
     const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
     const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
@@ -80,23 +86,20 @@ enum {
     HIDDEN = 8
 };
 
-static uint8_t hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
+APART unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
                         yb_across_t across)
 {
-    const yb_vertex_t *const vertex = frame->map->vertex;
     int32_t left[3];
-    find_left(frame, relief_place(&vertex[corner[0]]), relief_place(&vertex[corner[1]]),
-              relief_place(&vertex[corner[2]]), left);
+    find_left(frame, corner, left);
     unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
-        const int32_t to = left[i == 0 ? 2 : i - 1];
-        if (to == 0 || (across & NO_TRIANGLE) == NO_TRIANGLE ||
-            (which != FOR_ALL && !lies_there(frame, which, &vertex[corner[i]]) &&
-             !lies_there(frame, which, &vertex[corner[next3(i)]])))
+        if ((across & NO_TRIANGLE) == NO_TRIANGLE ||
+            (which != FOR_ALL && !lies_there(frame, which, corner[i]) &&
+             !lies_there(frame, which, corner[next3(i)])))
             continue;
-        found += to < 0 ? HIDDEN : 1u << i;
+        found += left[i] < 0 ? HIDDEN : left[i] > 0 ? 1u << i : 0;
     }
-    return (uint8_t)found;
+    return found;
 }
 
 /* Each triangle after all that may hide it. False: there is a circle; its triangles come last. */
@@ -109,8 +112,9 @@ static bool sort(yb_frame_t *frame, int which)
     uint8_t *const known = frame->bins; /* not in use yet */
     yb_triangle_t ready = 0;
     for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
-        known[t] = hides_of(frame, which, corner, across[t]);
-        if (known[t] < HIDDEN)
+        const unsigned found = hides_of(frame, which, corner, across[t]);
+        known[t] = (uint8_t)found;
+        if (found < HIDDEN)
             order[ready++] = t;
     }
     for (yb_triangle_t done = 0; done < ready; done++) {

@@ -62,12 +62,11 @@ static inline uint32_t parity_of(const yb_point_t *a, const yb_point_t *b)
 APART yb_edge_t ask_unseen(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                            yb_edge_t edge)
 {
-    camera_point_t at[2];
     if ((parity_of(a, b) & 1) != 0)
         return edge;
-    camera_view(frame, a->place, a->top_q8, &at[0]);
-    camera_view(frame, b->place, b->top_q8, &at[1]);
-    const int32_t depth = fix_max(fix_min(at[0].depth, at[1].depth), frame->near);
+    const int32_t depth = fix_max(
+        fix_min(camera_depth(frame, a->place, a->top_q8), camera_depth(frame, b->place, b->top_q8)),
+        frame->near);
     if ((edge & 0xffff) * (uint32_t)camera_near(frame, depth) <= frame->longest)
         return edge;
     return unless_under_water(frame, a, b, edge | REFINE_AGAIN);
@@ -299,7 +298,7 @@ void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
     part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
     part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, part->point) : 0;
-    order_root(frame, part);
+    order_root(frame, corner, part);
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */
@@ -330,13 +329,11 @@ static inline int after(int i)
 /* Is a triangle to become many and yet seen as little more than a line? What is inside it is left
  * whole: else a sliver that is to become n pieces along its sides would become n times n.
  */
-static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part, int i)
+static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part)
 {
-    const int j = after(i);
-    const int k = after(j);
-    const yb_spot_t *a = &part->point[i]->spot;
-    const yb_spot_t *b = &part->point[j]->spot;
-    const yb_spot_t *c = &part->point[k]->spot;
+    const yb_spot_t *a = &part->point[0]->spot;
+    const yb_spot_t *b = &part->point[1]->spot;
+    const yb_spot_t *c = &part->point[2]->spot;
     if (refine_edges(part) < 4 * REFINE_ONCE || a->near == 0 || b->near == 0 || c->near == 0)
         return false;
     const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
@@ -397,28 +394,45 @@ static inline int corner_before_last(const yb_part_t *part, int32_t half)
     return part->eye[1] <= half ? 0 : part->eye[2] <= half ? 1 : 2;
 }
 
+/* Has a triangle begin with its corner i. */
+APART void turn(yb_part_t *part, int i)
+{
+    while (i-- > 0) {
+        const yb_point_t *p = part->point[0];
+        const yb_edge_t edge = part->edge[0];
+        const int32_t eye = part->eye[0];
+        part->point[0] = part->point[1];
+        part->point[1] = part->point[2];
+        part->point[2] = p;
+        part->edge[0] = part->edge[1];
+        part->edge[1] = part->edge[2];
+        part->edge[2] = edge;
+        part->eye[0] = part->eye[1];
+        part->eye[1] = part->eye[2];
+        part->eye[2] = eye;
+    }
+}
+
 /* As SPEC 3.4, the parts in the order of order.h. A part that is laid aside needs no midpoint above
  * its own place on the stack, or one and the next place's as its last corner.
  */
 static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
-                             yb_level_t *level, int i)
+                             yb_level_t *level)
 {
-    const int j = after(i);
-    const int k = after(j);
-    const yb_point_t *const a = part->point[i];
-    const yb_point_t *const b = part->point[j];
-    const yb_point_t *const c = part->point[k];
-    const yb_edge_t bc = part->edge[j];
-    const yb_edge_t ca = part->edge[k];
-    const int32_t eye_a = part->eye[i];
-    const int32_t eye_b = part->eye[j];
-    const int32_t eye_c = part->eye[k] >> 1;
+    const yb_point_t *const a = part->point[0];
+    const yb_point_t *const b = part->point[1];
+    const yb_point_t *const c = part->point[2];
+    const yb_edge_t bc = part->edge[1];
+    const yb_edge_t ca = part->edge[2];
+    const int32_t eye_a = part->eye[0];
+    const int32_t eye_b = part->eye[1];
+    const int32_t eye_c = part->eye[2] >> 1;
     const int32_t bulge = part->bulge;
     yb_point_t *const m = &level[0].middle;
     yb_edge_t am;
     yb_edge_t mb;
-    refine_middle(frame, view, a, b, part->edge[i], m);
-    halve(frame, a, m, b, part->edge[i], &am, &mb);
+    refine_middle(frame, view, a, b, part->edge[0], m);
+    halve(frame, a, m, b, part->edge[0], &am, &mb);
     const int32_t across = (eye_a - eye_b) >> 1;
     const bool a_first = eye_a > eye_b;
     yb_part_t *const with_a = a_first ? part : &level[0].rest;
@@ -431,18 +445,16 @@ static yb_level_t *split_one(const yb_frame_t *frame, const refine_view_t *view,
 }
 
 static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
-                             yb_level_t *level, yb_edge_t inside, int i)
+                             yb_level_t *level, yb_edge_t inside)
 {
-    const int j = after(i);
-    const int k = after(j);
-    const yb_point_t *const a = part->point[i];
-    const yb_point_t *const b = part->point[j];
-    const yb_point_t *const c = part->point[k];
-    const yb_edge_t bc = part->edge[j];
-    const yb_edge_t ca = part->edge[k];
-    const int32_t eye_a = part->eye[i];
-    const int32_t eye_b = part->eye[j];
-    const int32_t eye_c = part->eye[k];
+    const yb_point_t *const a = part->point[0];
+    const yb_point_t *const b = part->point[1];
+    const yb_point_t *const c = part->point[2];
+    const yb_edge_t bc = part->edge[1];
+    const yb_edge_t ca = part->edge[2];
+    const int32_t eye_a = part->eye[0];
+    const int32_t eye_b = part->eye[1];
+    const int32_t eye_c = part->eye[2];
     const int32_t half = half_way(part);
     const int32_t bulge = part->bulge;
     yb_point_t *const m = &level[0].middle;
@@ -451,9 +463,9 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
     yb_edge_t mb;
     yb_edge_t bn;
     yb_edge_t nc;
-    refine_middle(frame, view, a, b, part->edge[i], m);
+    refine_middle(frame, view, a, b, part->edge[0], m);
     refine_middle(frame, view, b, c, bc, n);
-    halve(frame, a, m, b, part->edge[i], &am, &mb);
+    halve(frame, a, m, b, part->edge[0], &am, &mb);
     halve(frame, b, n, c, bc, &bn, &nc);
     const yb_edge_t mc = cross_edge(frame, m, c, bc) & inside;
     yb_part_t *const with_b = eye_b > half ? part : &level[0].rest;
@@ -472,18 +484,16 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
                                yb_level_t *level, yb_edge_t inside)
 {
     const int32_t half = half_way(part);
-    const int i = corner_before_last(part, half);
-    const int j = after(i);
-    const int k = after(j);
-    const yb_point_t *const a = part->point[i];
-    const yb_point_t *const b = part->point[j];
-    const yb_point_t *const c = part->point[k];
-    const yb_edge_t ab = part->edge[i];
-    const yb_edge_t bc = part->edge[j];
-    const yb_edge_t ca = part->edge[k];
-    const int32_t eye_a = part->eye[i];
-    const int32_t eye_b = part->eye[j];
-    const int32_t eye_c = part->eye[k];
+    turn(part, corner_before_last(part, half));
+    const yb_point_t *const a = part->point[0];
+    const yb_point_t *const b = part->point[1];
+    const yb_point_t *const c = part->point[2];
+    const yb_edge_t ab = part->edge[0];
+    const yb_edge_t bc = part->edge[1];
+    const yb_edge_t ca = part->edge[2];
+    const int32_t eye_a = part->eye[0];
+    const int32_t eye_b = part->eye[1];
+    const int32_t eye_c = part->eye[2];
     const int32_t bulge = part->bulge >> 2;
     yb_point_t *const m = &level[0].middle;
     yb_point_t *const n = &level[1].middle;
@@ -522,12 +532,12 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level)
 {
-    const int i = first_corner(part);
-    if (part->edge[after(i)] < REFINE_ONCE)
-        return split_one(frame, view, part, level, i);
-    const yb_edge_t inside = is_sliver(frame, part, i) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
-    if (part->edge[after(after(i))] < REFINE_ONCE)
-        return split_two(frame, view, part, level, inside, i);
+    turn(part, first_corner(part));
+    if (part->edge[1] < REFINE_ONCE)
+        return split_one(frame, view, part, level);
+    const yb_edge_t inside = is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
+    if (part->edge[2] < REFINE_ONCE)
+        return split_two(frame, view, part, level, inside);
     return split_three(frame, view, part, level, inside);
 }
 
@@ -601,36 +611,27 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
 }
 
-/* A triangle whose edges are all split once. */
+/* A triangle whose edges are all split once: its corners' parts on the eye's side, its middle and
+ * the others. The parts with its corners a and c come before that with b.
+ */
 APART void draw_four(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
 {
-    yb_frame_t *frame = walk->frame;
-    const refine_view_t *view = walk->view;
+    for (int i = 0; i < 3; i++)
+        refine_middle(walk->frame, walk->view, part->point[i], part->point[after(i)], part->edge[i],
+                      &level[i].middle);
     const int32_t half = half_way(part);
-    const int i = corner_before_last(part, half);
-    const int j = after(i);
-    const int k = after(j);
-    const yb_point_t *const a = part->point[i];
-    const yb_point_t *const b = part->point[j];
-    const yb_point_t *const c = part->point[k];
-    yb_point_t *const m = &level[0].middle;
-    yb_point_t *const n = &level[1].middle;
-    yb_point_t *const o = &level[2].middle;
-    refine_middle(frame, view, a, b, part->edge[i], m);
-    refine_middle(frame, view, b, c, part->edge[j], n);
-    refine_middle(frame, view, c, a, part->edge[k], o);
-    const bool a_first = part->eye[i] > half;
-    const bool c_first = part->eye[k] > half;
-    if (a_first)
-        leaf(walk, a, m, o);
-    if (c_first)
-        leaf(walk, n, c, o);
-    leaf(walk, m, n, o);
-    if (!a_first)
-        leaf(walk, a, m, o);
-    if (!c_first)
-        leaf(walk, n, c, o);
-    leaf(walk, m, b, n);
+    int i = corner_before_last(part, half);
+    for (bool first = true;; first = false) {
+        for (int n = 0; n < 3; n++) {
+            const int before = i == 0 ? 2 : i - 1;
+            if ((part->eye[i] > half) == first)
+                leaf(walk, part->point[i], &level[i].middle, &level[before].middle);
+            i = before;
+        }
+        if (!first)
+            return;
+        leaf(walk, &level[0].middle, &level[1].middle, &level[2].middle);
+    }
 }
 
 /* A triangle whose edges are split once or not at all: as refine_split, and its parts in the order
@@ -685,32 +686,37 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
 {
     yb_frame_t *frame = walk->frame;
     yb_level_t *top = frame->level;
+    yb_level_t *from = top;
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t root;
     yb_part_t *part = &root;
     refine_root(frame, walk->view, triangle, part);
-    do {
-        if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
-            return; /* counted enough: too many */
-        while (refine_splits(part)) {
+    for (;;) {
+        for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
             if (refine_part_misses(frame, walk->view, part))
                 goto next;
             if (top > last) {
                 frame->stats.depth_limited++;
                 break;
             }
-            if (refine_edges(part) < 2 * REFINE_ONCE) {
+            if (edges < 2 * REFINE_ONCE) {
                 draw_last(walk, part, top);
                 goto next;
             }
-            top = refine_split(frame, walk->view, part, top);
+            if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
+                return; /* counted enough: too many */
+            from = top = refine_split(frame, walk->view, part, top);
         }
         frame->stats.refined++;
         if (walk->raster != NULL)
             leaf(walk, part->point[0], part->point[1], part->point[2]);
     next:
-        part = refine_next(frame->level, &top, part);
-    } while (part != NULL);
+        from = refine_next(frame->level, from, part);
+        if (from == NULL)
+            return;
+        part = &from->rest;
+        top = refine_top(from);
+    }
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)

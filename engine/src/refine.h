@@ -135,19 +135,24 @@ enum {
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level);
 
-/* Of a part that is done with, the next: what was laid aside last, between `bottom` and *top; NULL:
- * there is nothing left. It stays where it was laid aside until it is done with itself.
+/* Of a part that is done with, the next: what was laid aside last between `bottom` and `from`, the
+ * end of what its splitting laid aside or, if it was not split, where it lies itself. It stays
+ * there until it is done with. NULL: there is nothing left.
  */
-static inline yb_part_t *refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *done)
+static inline yb_level_t *refine_next(const yb_level_t *bottom, yb_level_t *from, yb_part_t *done)
 {
     done->point[0] = NULL;
-    for (yb_level_t *level = *top; level-- != bottom;) {
-        if (level->rest.point[0] == NULL)
-            continue;
-        *top = level + (level->rest.point[2] == &level[1].middle ? 2 : 1);
-        return &level->rest;
+    while (from != bottom) {
+        if ((--from)->rest.point[0] != NULL)
+            return from;
     }
     return NULL;
+}
+
+/* From where on what a part that was laid aside is split into may be. */
+static inline yb_level_t *refine_top(yb_level_t *level)
+{
+    return level + (level->rest.point[2] == &level[1].middle ? 2 : 1);
 }
 
 /* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is

@@ -67,8 +67,12 @@ static void walk(walk_t *at, yb_part_t part, int used)
     }
     yb_level_t rest[REFINE_PIECES];
     yb_level_t *top = refine_split(at->frame, at->view, &part, rest);
-    for (yb_part_t *next = &part; next != NULL; next = refine_next(rest, &top, next))
-        walk(at, *next, used + (int)(top - rest));
+    yb_level_t *level = top;
+    walk(at, part, used + (int)(top - rest));
+    for (yb_part_t *done = &part; (level = refine_next(rest, level, done)) != NULL;) {
+        done = &level->rest;
+        walk(at, *done, used + (int)(refine_top(level) - rest));
+    }
 }
 
 uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)

@@ -155,9 +155,12 @@ static void descend(bounds_t *bounds, yb_part_t part)
         check_point(bounds, part.point[i]);
     if (splits) {
         yb_level_t rest[REFINE_PIECES];
-        yb_level_t *top = refine_split(&frame, &bounds->view, &part, rest);
-        for (yb_part_t *next = &part; next != NULL; next = refine_next(rest, &top, next))
-            descend(bounds, *next);
+        yb_level_t *level = refine_split(&frame, &bounds->view, &part, rest);
+        descend(bounds, part);
+        for (yb_part_t *done = &part; (level = refine_next(rest, level, done)) != NULL;) {
+            done = &level->rest;
+            descend(bounds, *done);
+        }
     }
     bounds->depth--;
 }
@@ -201,9 +204,12 @@ static void check_bins(int t, yb_part_t part)
     if (!refine_splits(&part))
         return;
     yb_level_t rest[REFINE_PIECES];
-    yb_level_t *top = refine_split(&frame, plain_view(&frame), &part, rest);
-    for (yb_part_t *next = &part; next != NULL; next = refine_next(rest, &top, next))
-        check_bins(t, *next);
+    yb_level_t *level = refine_split(&frame, plain_view(&frame), &part, rest);
+    check_bins(t, part);
+    for (yb_part_t *done = &part; (level = refine_next(rest, level, done)) != NULL;) {
+        done = &level->rest;
+        check_bins(t, *done);
+    }
 }
 
 static void bins_hold_their_triangles(void **state)
