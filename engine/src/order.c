@@ -27,20 +27,20 @@ void order_begin(yb_frame_t *frame)
  * eighths, so that in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is
  * below 2^31.
  */
-static inline int32_t left_of(const yb_frame_t *frame, uint32_t a, uint32_t b)
+static inline int32_t left_of(int32_t eye_x_q6, int32_t eye_y_q6, uint32_t a, uint32_t b)
 {
 #if YB_MAX_VERTICES <= 255
     const int32_t x = (int32_t)((a & 0xffff) >> 5);
     const int32_t y = (int32_t)(a >> 21);
     const int32_t dx = (int32_t)((b & 0xffff) >> 5) - x;
     const int32_t dy = (int32_t)(b >> 21) - y;
-    return dx * (frame->eye_y_q6 - y * 8) - dy * (frame->eye_x_q6 - x * 8);
+    return dx * (eye_y_q6 - y * 8) - dy * (eye_x_q6 - x * 8);
 #else
     /* Of a map in full detail it may be rounded: away from 0, so that the sign stays. */
     const int32_t x = (int32_t)(a & 0xffff);
     const int32_t y = (int32_t)(a >> 16);
-    const int64_t left = (int64_t)relief_dx(a, b) * (frame->eye_y_q6 * 4 - y) -
-                         (int64_t)relief_dy(a, b) * (frame->eye_x_q6 * 4 - x);
+    const int64_t left = (int64_t)relief_dx(a, b) * (eye_y_q6 * 4 - y) -
+                         (int64_t)relief_dy(a, b) * (eye_x_q6 * 4 - x);
     return (int32_t)((left + (left > 0 ? 127 : 0)) >> 7);
 #endif
 }
@@ -49,10 +49,12 @@ static inline int32_t left_of(const yb_frame_t *frame, uint32_t a, uint32_t b)
 APART void find_left(const yb_frame_t *frame, const yb_index_t *corner, int32_t left[3])
 {
     const yb_vertex_t *const vertex = frame->map->vertex;
+    const int32_t eye_x_q6 = frame->eye_x_q6;
+    const int32_t eye_y_q6 = frame->eye_y_q6;
     uint32_t end = relief_place(&vertex[corner[0]]);
     for (int i = 2; i >= 0; i--) {
         const uint32_t from = relief_place(&vertex[corner[i]]);
-        left[i] = left_of(frame, from, end);
+        left[i] = left_of(eye_x_q6, eye_y_q6, from, end);
         end = from;
     }
 }

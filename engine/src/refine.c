@@ -286,19 +286,24 @@ void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_
     set_out(view, &point->spot);
 }
 
-void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part)
+bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part, bool all)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    int beyond = all ? 0 : REFINE_NOWHERE;
     for (int i = 0; i < 3; i++) {
         refine_corner(frame, view, corner[i], &frame->root[i]);
         part->point[i] = &frame->root[i];
+        beyond &= frame->root[i].spot.out;
     }
+    if (beyond != 0 && refine_root_misses(frame, view, part->point))
+        return false;
     part->edge[0] = refine_edge(frame, &frame->root[0], &frame->root[1]);
     part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
     part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, part->point) : 0;
     order_root(frame, corner, part);
+    return true;
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */
@@ -611,33 +616,10 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
 }
 
-/* A triangle whose edges are all split once: its corners' parts on the eye's side, its middle and
- * the others. The parts with its corners a and c come before that with b.
+/* A triangle of which one or two edges are split, once: as refine_split, and its parts in the order
+ * of refine_next, none of which needs a place on the stack. False: all three are, which is rare.
  */
-APART void draw_four(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
-{
-    for (int i = 0; i < 3; i++)
-        refine_middle(walk->frame, walk->view, part->point[i], part->point[after(i)], part->edge[i],
-                      &level[i].middle);
-    const int32_t half = half_way(part);
-    int i = corner_before_last(part, half);
-    for (bool first = true;; first = false) {
-        for (int n = 0; n < 3; n++) {
-            const int before = i == 0 ? 2 : i - 1;
-            if ((part->eye[i] > half) == first)
-                leaf(walk, part->point[i], &level[i].middle, &level[before].middle);
-            i = before;
-        }
-        if (!first)
-            return;
-        leaf(walk, &level[0].middle, &level[1].middle, &level[2].middle);
-    }
-}
-
-/* A triangle whose edges are split once or not at all: as refine_split, and its parts in the order
- * of refine_next, none of which needs a place on the stack.
- */
-APART void draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
+APART bool draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
 {
     yb_frame_t *frame = walk->frame;
     const refine_view_t *view = walk->view;
@@ -645,14 +627,11 @@ APART void draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *leve
     const int j = after(i);
     const int k = after(j);
     const bool two = part->edge[j] >= REFINE_ONCE;
-    const bool three = two && part->edge[k] >= REFINE_ONCE;
-    frame->stats.refined += three ? 4 : two ? 3 : 2;
+    if (two && part->edge[k] >= REFINE_ONCE)
+        return false;
+    frame->stats.refined += two ? 3 : 2;
     if (walk->raster == NULL)
-        return;
-    if (three) {
-        draw_four(walk, part, level);
-        return;
-    }
+        return true;
     const yb_point_t *const a = part->point[i];
     const yb_point_t *const b = part->point[j];
     const yb_point_t *const c = part->point[k];
@@ -665,7 +644,7 @@ APART void draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *leve
         leaf(walk, b, c, m);
         if (!a_first)
             leaf(walk, c, a, m);
-        return;
+        return true;
     }
     yb_point_t *const n = &level[1].middle;
     refine_middle(frame, view, b, c, part->edge[j], n);
@@ -679,6 +658,7 @@ APART void draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *leve
         leaf(walk, c, a, m);
     if (!b_first)
         leaf(walk, m, b, n);
+    return true;
 }
 
 /* Refines a base triangle and draws what it becomes. */
@@ -690,7 +670,9 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t root;
     yb_part_t *part = &root;
-    refine_root(frame, walk->view, triangle, part);
+    /* What is counted is counted whole: a bound on leaves is on all that refinement asks for. */
+    if (!refine_root(frame, walk->view, triangle, part, walk->raster == NULL))
+        return;
     for (;;) {
         for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
             if (refine_part_misses(frame, walk->view, part))
@@ -699,10 +681,8 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
                 frame->stats.depth_limited++;
                 break;
             }
-            if (edges < 2 * REFINE_ONCE) {
-                draw_last(walk, part, top);
+            if (edges < 2 * REFINE_ONCE && draw_last(walk, part, top))
                 goto next;
-            }
             if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
                 return; /* counted enough: too many */
             from = top = refine_split(frame, walk->view, part, top);

@@ -89,6 +89,12 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
 /* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
 int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);
 
+/* Is nothing that a base triangle, not all of whose corners have spots, can become in the view? By
+ * a bound of the map: its edges need not be known.
+ */
+bool refine_root_misses(const yb_frame_t *frame, const refine_view_t *view,
+                        const yb_point_t *const p[3]);
+
 /* Is nothing that a triangle to be split can become in the view? Most lie in it as they are. */
 bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
                     int beyond);
@@ -109,9 +115,11 @@ int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3]);
 void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
                    yb_point_t *point);
 
-/* A base triangle, with its corners in frame->root. */
-void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part);
+/* A base triangle, with its corners in frame->root. False: it is out of sight, as most are that lie
+ * behind the eye, and no more is known of it; `all`: it is not asked whether it is.
+ */
+bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part, bool all);
 
 /* REFINE_ONCE or more if one of a triangle's edges is split; below twice that, none of its parts
  * is.

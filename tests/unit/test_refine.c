@@ -69,7 +69,7 @@ static void edges_are_the_same_from_both_ends(void **state)
         (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
             check_leaf(NULL, root.point);
         }
     }
@@ -84,7 +84,7 @@ static void midpoints_are_the_surfaces(void **state)
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
@@ -177,7 +177,7 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root, true);
             descend(&bounds, root);
         }
     }
@@ -226,7 +226,7 @@ static void bins_hold_their_triangles(void **state)
         }
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
             check_bins(t, root);
         }
     }
