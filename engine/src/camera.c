@@ -198,9 +198,7 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
     int32_t nearest = INT32_MAX;
     for (int i = 0; i < frame->map->vertex_count; i++) {
         const yb_vertex_t *v = &frame->map->vertex[i];
-        camera_point_t at;
-        camera_view(frame, relief_place(v), v->z_q8, &at);
-        nearest = fix_min(nearest, at.depth);
+        nearest = fix_min(nearest, camera_depth(frame, relief_place(v), v->z_q8));
     }
     nearest -= fix_product(stray, bend, 14 + frame->eye_shift) + 2;
     frame->near = fix_max(nearest, fix_max(NEAREST_Q8 >> frame->eye_shift, LEAST_NEAR));
@@ -269,7 +267,7 @@ static void find_lengths(yb_frame_t *frame, uint64_t whole)
      * meet no pixel's centre. Made for as many on 128 and on 320 pixels. */
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
-        edge_q4 = (uint32_t)fix_max(49 * width / 48 - 12, (width + 1) >> 1);
+        edge_q4 = (uint32_t)fix_max(14 * width / 15 - 16, (width + 1) >> 1);
     frame->thin_q4 = (int32_t)edge_q4;
     frame->longest = fix_share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
 }
@@ -303,15 +301,37 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
 
 /* --- The screen ------------------------------------------------------------------------------- */
 
-void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
+/* A place as the eye sees it, before it is turned. */
+typedef struct {
+    int32_t x, y, z;
+} way_t;
+
+static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
 {
     const int32_t *eye = frame->view.eye_q8;
-    int32_t x = ((int32_t)(place & 0xffff) - eye[0]) >> frame->eye_shift;
-    int32_t y = ((int32_t)(place >> 16) - eye[1]) >> frame->eye_shift;
-    int32_t z = (((top_q8 * frame->view.exaggerate_q8) >> 8) - eye[2]) >> frame->eye_shift;
-    to->right = (x * frame->right_x + y * frame->right_y) >> 14;
-    to->up = (x * frame->up_x + y * frame->up_y + z * frame->up_z) >> 14;
-    to->depth = (x * frame->depth_x + y * frame->depth_y + z * frame->depth_z) >> 14;
+    return (way_t){
+        ((int32_t)(place & 0xffff) - eye[0]) >> frame->eye_shift,
+        ((int32_t)(place >> 16) - eye[1]) >> frame->eye_shift,
+        (((top_q8 * frame->view.exaggerate_q8) >> 8) - eye[2]) >> frame->eye_shift,
+    };
+}
+
+static inline int32_t depth_of(const yb_frame_t *frame, way_t way)
+{
+    return (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
+}
+
+int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
+{
+    return depth_of(frame, way_to(frame, place, top_q8));
+}
+
+void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
+{
+    const way_t way = way_to(frame, place, top_q8);
+    to->right = (way.x * frame->right_x + way.y * frame->right_y) >> 14;
+    to->up = (way.x * frame->up_x + way.y * frame->up_y + way.z * frame->up_z) >> 14;
+    to->depth = depth_of(frame, way);
 }
 
 /* 2^29 over a depth that is shifted so: 2^14 to 2^15. */

@@ -27,6 +27,9 @@ void camera_begin(yb_frame_t *frame, int32_t stray);
 /* Where a place of the map at height top_q8 lies in view space. */
 void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to);
 
+/* Its depth alone. */
+int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8);
+
 /* 1/depth as in a spot, at the near distance or beyond. */
 int32_t camera_near(const yb_frame_t *frame, int32_t depth);
 
@@ -42,7 +45,7 @@ static inline void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t
     const yb_vertex_t *v = &frame->map->vertex[i];
     const yb_seen_t *seen = &frame->seen[i];
     point->place = relief_place(v);
-    point->slope = (uint16_t)(v->gx_q11 + 0x8000) | (uint32_t)(uint16_t)(v->gy_q11 + 0x8000) << 16;
+    point->slope = ((uint16_t)v->gx_q11 | (uint32_t)(uint16_t)v->gy_q11 << 16) ^ 0x80008000u;
     point->z_q8 = v->z_q8;
     point->top_q8 = fix_max(v->z_q8, frame->view.water_q8);
     point->spot.x_q4 = seen->x_q4;

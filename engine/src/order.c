@@ -2,6 +2,7 @@
 
 #include "fix.h"
 #include "mesh.h"
+#include "relief.h"
 
 /* yb_frame_t.order_for. Lines of sight that go round the eye may meet triangles in a circle, each
  * in front of the next; those that go ahead of it, or back, cannot, for then there is a last one.
@@ -21,41 +22,57 @@ void order_begin(yb_frame_t *frame)
     frame->order_for = FOR_NOTHING;
 }
 
-/* How far the eye is to the left of the line from a to b, times its length: below 0, to its right;
- * of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of eighths, so that
- * in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is below 2^31.
+/* How far the eye is to the left of the line from a place to another, times its length: below 0, to
+ * its right; of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of
+ * eighths, so that in 1/8 and 1/64 step nothing is rounded: 2^11 * (2^18 + 2^14), twice, is
+ * below 2^31.
  */
-static inline int32_t left_of(const yb_frame_t *frame, const yb_vertex_t *a, const yb_vertex_t *b)
+static inline int32_t left_of(int32_t eye_x_q6, int32_t eye_y_q6, uint32_t a, uint32_t b)
 {
-    const int32_t dx = fix_minus(b->x_q8, a->x_q8);
-    const int32_t dy = fix_minus(b->y_q8, a->y_q8);
 #if YB_MAX_VERTICES <= 255
-    return (dx >> 5) * (frame->eye_y_q6 - (a->y_q8 >> 2)) -
-           (dy >> 5) * (frame->eye_x_q6 - (a->x_q8 >> 2));
+    const int32_t x = (int32_t)((a & 0xffff) >> 5);
+    const int32_t y = (int32_t)(a >> 21);
+    const int32_t dx = (int32_t)((b & 0xffff) >> 5) - x;
+    const int32_t dy = (int32_t)(b >> 21) - y;
+    return dx * (eye_y_q6 - y * 8) - dy * (eye_x_q6 - x * 8);
 #else
     /* Of a map in full detail it may be rounded: away from 0, so that the sign stays. */
-    const int64_t left = (int64_t)dx * (frame->eye_y_q6 * 4 - a->y_q8) -
-                         (int64_t)dy * (frame->eye_x_q6 * 4 - a->x_q8);
+    const int32_t x = (int32_t)(a & 0xffff);
+    const int32_t y = (int32_t)(a >> 16);
+    const int64_t left = (int64_t)relief_dx(a, b) * (eye_y_q6 * 4 - y) -
+                         (int64_t)relief_dy(a, b) * (eye_x_q6 * 4 - x);
     return (int32_t)((left + (left > 0 ? 127 : 0)) >> 7);
 #endif
 }
 
-void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part)
+/* left_of of a triangle's edges. */
+APART void find_left(const yb_frame_t *frame, const yb_index_t *corner, int32_t left[3])
 {
-    const yb_map_t *map = frame->map;
-    const yb_index_t *corner = yb_map_triangle(map, triangle);
-    const yb_vertex_t *const a = &map->vertex[corner[0]];
-    const yb_vertex_t *const b = &map->vertex[corner[1]];
-    const yb_vertex_t *const c = &map->vertex[corner[2]];
+    const yb_vertex_t *const vertex = frame->map->vertex;
+    const int32_t eye_x_q6 = frame->eye_x_q6;
+    const int32_t eye_y_q6 = frame->eye_y_q6;
+    uint32_t end = relief_place(&vertex[corner[0]]);
+    for (int i = 2; i >= 0; i--) {
+        const uint32_t from = relief_place(&vertex[corner[i]]);
+        left[i] = left_of(eye_x_q6, eye_y_q6, from, end);
+        end = from;
+    }
+}
+
+void order_root(const yb_frame_t *frame, const yb_index_t *corner, yb_part_t *part)
+{
+    int32_t left[3];
+    find_left(frame, corner, left);
     /* Halves: sums of two, and those of the long parts of thin triangles, are below 2^31. */
-    part->eye[0] = left_of(frame, b, c) >> 1;
-    part->eye[1] = left_of(frame, c, a) >> 1;
-    part->eye[2] = left_of(frame, a, b) >> 1;
+    part->eye[0] = left[1] >> 1;
+    part->eye[1] = left[2] >> 1;
+    part->eye[2] = left[0] >> 1;
 }
 
 /* Does a vertex lie where lines of sight ahead, or back, go? Products are within 2^19 * 2^12. */
-static bool lies_there(const yb_frame_t *frame, int which, const yb_vertex_t *v)
+static bool lies_there(const yb_frame_t *frame, int which, yb_index_t i)
 {
+    const yb_vertex_t *const v = &frame->map->vertex[i];
     /* The way that the camera looks, in plan, also if it looks straight down. */
     const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
     const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
@@ -71,20 +88,20 @@ enum {
     HIDDEN = 8
 };
 
-static uint8_t hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
+APART unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
                         yb_across_t across)
 {
+    int32_t left[3];
+    find_left(frame, corner, left);
     unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
-        const yb_vertex_t *a = &frame->map->vertex[corner[i]];
-        const yb_vertex_t *b = &frame->map->vertex[corner[next3(i)]];
         if ((across & NO_TRIANGLE) == NO_TRIANGLE ||
-            (which != FOR_ALL && !lies_there(frame, which, a) && !lies_there(frame, which, b)))
+            (which != FOR_ALL && !lies_there(frame, which, corner[i]) &&
+             !lies_there(frame, which, corner[next3(i)])))
             continue;
-        const int32_t left = left_of(frame, a, b);
-        found += left < 0 ? HIDDEN : left > 0 ? 1u << i : 0;
+        found += left[i] < 0 ? HIDDEN : left[i] > 0 ? 1u << i : 0;
     }
-    return (uint8_t)found;
+    return found;
 }
 
 /* Each triangle after all that may hide it. False: there is a circle; its triangles come last. */
@@ -97,8 +114,9 @@ static bool sort(yb_frame_t *frame, int which)
     uint8_t *const known = frame->bins; /* not in use yet */
     yb_triangle_t ready = 0;
     for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
-        known[t] = hides_of(frame, which, corner, across[t]);
-        if (known[t] < HIDDEN)
+        const unsigned found = hides_of(frame, which, corner, across[t]);
+        known[t] = (uint8_t)found;
+        if (found < HIDDEN)
             order[ready++] = t;
     }
     for (yb_triangle_t done = 0; done < ready; done++) {

@@ -24,7 +24,7 @@ void order_begin(yb_frame_t *frame);
  */
 int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end);
 
-/* Where the eye is, for a base triangle. */
-void order_root(const yb_frame_t *frame, yb_triangle_t triangle, yb_part_t *part);
+/* Where the eye is, for a base triangle with these corners. */
+void order_root(const yb_frame_t *frame, const yb_index_t *corner, yb_part_t *part);
 
 #endif

@@ -187,6 +187,16 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
     return stray_in_water(frame, part->point, stray);
 }
 
+/* The map's bound is by other midpoints. Twice that is as much as limited_stray: three times the
+ * bulge of an edge to two and a half, four times what noise does to once; and that is below 2^19.
+ */
+bool refine_root_misses(const yb_frame_t *frame, const refine_view_t *view,
+                        const yb_point_t *const p[3])
+{
+    const int32_t stray = fix_min(2 * frame->map->stray_q8, (int32_t)1 << 19);
+    return misses_planes(frame, view, p, 3, stray_in_water(frame, p, stray));
+}
+
 /* find_spare, of a triangle all of whose corners, and walls' feet, have spots. Feet are where they
  * should be but for the rounding of their own, as corners are. If none of it changes its depth by
  * more than a 64th, all midpoints are made from the spots of their ends: what they may be off from

@@ -62,12 +62,11 @@ static inline uint32_t parity_of(const yb_point_t *a, const yb_point_t *b)
 APART yb_edge_t ask_unseen(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                            yb_edge_t edge)
 {
-    camera_point_t at[2];
     if ((parity_of(a, b) & 1) != 0)
         return edge;
-    camera_view(frame, a->place, a->top_q8, &at[0]);
-    camera_view(frame, b->place, b->top_q8, &at[1]);
-    const int32_t depth = fix_max(fix_min(at[0].depth, at[1].depth), frame->near);
+    const int32_t depth = fix_max(
+        fix_min(camera_depth(frame, a->place, a->top_q8), camera_depth(frame, b->place, b->top_q8)),
+        frame->near);
     if ((edge & 0xffff) * (uint32_t)camera_near(frame, depth) <= frame->longest)
         return edge;
     return unless_under_water(frame, a, b, edge | REFINE_AGAIN);
@@ -287,19 +286,24 @@ void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_
     set_out(view, &point->spot);
 }
 
-void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part)
+bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part, bool all)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    int beyond = all ? 0 : REFINE_NOWHERE;
     for (int i = 0; i < 3; i++) {
         refine_corner(frame, view, corner[i], &frame->root[i]);
         part->point[i] = &frame->root[i];
+        beyond &= frame->root[i].spot.out;
     }
+    if (beyond != 0 && refine_root_misses(frame, view, part->point))
+        return false;
     part->edge[0] = refine_edge(frame, &frame->root[0], &frame->root[1]);
     part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
     part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, part->point) : 0;
-    order_root(frame, triangle, part);
+    order_root(frame, corner, part);
+    return true;
 }
 
 /* An edge that an edge to be asked anew has left: most are short. */
@@ -319,6 +323,12 @@ static inline void halve(const yb_frame_t *frame, const yb_point_t *a, const yb_
         *am = ask_anew(frame, a, m, *am);
         *mb = ask_anew(frame, m, b, *mb);
     }
+}
+
+/* The corner after another one. */
+static inline int after(int i)
+{
+    return i == 2 ? 0 : i + 1;
 }
 
 /* Is a triangle to become many and yet seen as little more than a line? What is inside it is left
@@ -365,21 +375,47 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     return (mc & 0xffffff) | (yb_edge_t)often << 24;
 }
 
+/* Of a triangle that is to be split, the corner a from which of the edges that are split ab is the
+ * first.
+ */
+static inline int first_corner(const yb_part_t *part)
+{
+    if (part->edge[0] < REFINE_ONCE)
+        return part->edge[1] < REFINE_ONCE ? 2 : 1;
+    return part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE ? 2 : 0;
+}
+
 /* How far the eye would be from a side if it were half way to the corner. */
 static inline int32_t half_way(const yb_part_t *part)
 {
     return (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
 }
 
-/* Turns a triangle whose edges are all split so that the part with its corner b comes last: of the
- * three outer parts at most two lie on the eye's side of their inner edges. The answer is half_way.
+/* Of a triangle whose edges are all split, the corner a that has the part with its corner b come
+ * last: of the three outer parts at most two lie on the eye's side of their inner edges.
  */
-static int32_t put_last(yb_part_t *part)
+static inline int corner_before_last(const yb_part_t *part, int32_t half)
 {
-    const int32_t half = half_way(part);
-    for (int i = 0; i < 2 && part->eye[1] > half; i++)
-        refine_rotate(part);
-    return half;
+    return part->eye[1] <= half ? 0 : part->eye[2] <= half ? 1 : 2;
+}
+
+/* Has a triangle begin with its corner i. */
+APART void turn(yb_part_t *part, int i)
+{
+    while (i-- > 0) {
+        const yb_point_t *p = part->point[0];
+        const yb_edge_t edge = part->edge[0];
+        const int32_t eye = part->eye[0];
+        part->point[0] = part->point[1];
+        part->point[1] = part->point[2];
+        part->point[2] = p;
+        part->edge[0] = part->edge[1];
+        part->edge[1] = part->edge[2];
+        part->edge[2] = edge;
+        part->eye[0] = part->eye[1];
+        part->eye[1] = part->eye[2];
+        part->eye[2] = eye;
+    }
 }
 
 /* As SPEC 3.4, the parts in the order of order.h. A part that is laid aside needs no midpoint above
@@ -452,7 +488,8 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
 static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                                yb_level_t *level, yb_edge_t inside)
 {
-    const int32_t half = put_last(part);
+    const int32_t half = half_way(part);
+    turn(part, corner_before_last(part, half));
     const yb_point_t *const a = part->point[0];
     const yb_point_t *const b = part->point[1];
     const yb_point_t *const c = part->point[2];
@@ -500,26 +537,13 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level)
 {
-    refine_turn(part);
+    turn(part, first_corner(part));
     if (part->edge[1] < REFINE_ONCE)
         return split_one(frame, view, part, level);
     const yb_edge_t inside = is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
     if (part->edge[2] < REFINE_ONCE)
         return split_two(frame, view, part, level, inside);
     return split_three(frame, view, part, level, inside);
-}
-
-bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part)
-{
-    for (yb_level_t *level = *top; level-- != bottom;) {
-        if (level->rest.point[0] == NULL)
-            continue;
-        *part = level->rest;
-        level->rest.point[0] = NULL;
-        *top = level + (part->point[2] == &level[1].middle ? 2 : 1);
-        return true;
-    }
-    return false;
 }
 
 /* --- Drawing ---------------------------------------------------------------------------------- */
@@ -592,63 +616,49 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
 }
 
-/* A triangle whose edges are split once or not at all: as refine_split, and its parts in the order
- * of refine_next, none of which needs a place on the stack.
+/* A triangle of which one or two edges are split, once: as refine_split, and its parts in the order
+ * of refine_next, none of which needs a place on the stack. False: all three are, which is rare.
  */
-static void draw_last(const walk_t *walk, yb_part_t *part, yb_level_t *level)
+APART bool draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
 {
     yb_frame_t *frame = walk->frame;
     const refine_view_t *view = walk->view;
-    refine_turn(part);
-    const bool two = part->edge[1] >= REFINE_ONCE;
-    const bool three = part->edge[2] >= REFINE_ONCE;
-    frame->stats.refined += three ? 4 : two ? 3 : 2;
+    const int i = first_corner(part);
+    const int j = after(i);
+    const int k = after(j);
+    const bool two = part->edge[j] >= REFINE_ONCE;
+    if (two && part->edge[k] >= REFINE_ONCE)
+        return false;
+    frame->stats.refined += two ? 3 : 2;
     if (walk->raster == NULL)
-        return;
-    const int32_t half = three ? put_last(part) : half_way(part);
-    const int32_t *eye = part->eye;
-    const yb_point_t *a = part->point[0];
-    const yb_point_t *b = part->point[1];
-    const yb_point_t *c = part->point[2];
+        return true;
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
     yb_point_t *const m = &level[0].middle;
-    refine_middle(frame, view, a, b, part->edge[0], m);
-    bool a_first = eye[0] > eye[1];
+    refine_middle(frame, view, a, b, part->edge[i], m);
+    const bool a_first = part->eye[i] > part->eye[j];
     if (!two) {
         if (a_first)
             leaf(walk, c, a, m);
         leaf(walk, b, c, m);
         if (!a_first)
             leaf(walk, c, a, m);
-        return;
+        return true;
     }
     yb_point_t *const n = &level[1].middle;
-    refine_middle(frame, view, b, c, part->edge[1], n);
-    if (!three) {
-        if (eye[1] > half)
-            leaf(walk, m, b, n);
-        if (a_first)
-            leaf(walk, c, a, m);
-        leaf(walk, c, m, n);
-        if (!a_first)
-            leaf(walk, c, a, m);
-        if (eye[1] <= half)
-            leaf(walk, m, b, n);
-        return;
-    }
-    yb_point_t *const o = &level[2].middle;
-    refine_middle(frame, view, c, a, part->edge[2], o);
-    a_first = eye[0] > half;
-    const bool c_first = eye[2] > half;
+    refine_middle(frame, view, b, c, part->edge[j], n);
+    const bool b_first = part->eye[j] > half_way(part);
+    if (b_first)
+        leaf(walk, m, b, n);
     if (a_first)
-        leaf(walk, a, m, o);
-    if (c_first)
-        leaf(walk, n, c, o);
-    leaf(walk, m, n, o);
+        leaf(walk, c, a, m);
+    leaf(walk, c, m, n);
     if (!a_first)
-        leaf(walk, a, m, o);
-    if (!c_first)
-        leaf(walk, n, c, o);
-    leaf(walk, m, b, n);
+        leaf(walk, c, a, m);
+    if (!b_first)
+        leaf(walk, m, b, n);
+    return true;
 }
 
 /* Refines a base triangle and draws what it becomes. */
@@ -656,30 +666,37 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
 {
     yb_frame_t *frame = walk->frame;
     yb_level_t *top = frame->level;
+    yb_level_t *from = top;
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
-    yb_part_t part;
-    refine_root(frame, walk->view, triangle, &part);
-    do {
-        if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
-            return; /* counted enough: too many */
-        while (refine_splits(&part)) {
-            if (refine_part_misses(frame, walk->view, &part))
+    yb_part_t root;
+    yb_part_t *part = &root;
+    /* What is counted is counted whole: a bound on leaves is on all that refinement asks for. */
+    if (!refine_root(frame, walk->view, triangle, part, walk->raster == NULL))
+        return;
+    for (;;) {
+        for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
+            if (refine_part_misses(frame, walk->view, part))
                 goto next;
             if (top > last) {
                 frame->stats.depth_limited++;
                 break;
             }
-            if (refine_edges(&part) < 2 * REFINE_ONCE) {
-                draw_last(walk, &part, top);
+            if (edges < 2 * REFINE_ONCE && draw_last(walk, part, top))
                 goto next;
-            }
-            top = refine_split(frame, walk->view, &part, top);
+            if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
+                return; /* counted enough: too many */
+            from = top = refine_split(frame, walk->view, part, top);
         }
         frame->stats.refined++;
         if (walk->raster != NULL)
-            leaf(walk, part.point[0], part.point[1], part.point[2]);
-    next:;
-    } while (refine_next(frame->level, &top, &part));
+            leaf(walk, part->point[0], part->point[1], part->point[2]);
+    next:
+        from = refine_next(frame->level, from, part);
+        if (from == NULL)
+            return;
+        part = &from->rest;
+        top = refine_top(from);
+    }
 }
 
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)

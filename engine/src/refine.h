@@ -89,6 +89,12 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
 /* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
 int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);
 
+/* Is nothing that a base triangle, not all of whose corners have spots, can become in the view? By
+ * a bound of the map: its edges need not be known.
+ */
+bool refine_root_misses(const yb_frame_t *frame, const refine_view_t *view,
+                        const yb_point_t *const p[3]);
+
 /* Is nothing that a triangle to be split can become in the view? Most lie in it as they are. */
 bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
                     int beyond);
@@ -109,9 +115,11 @@ int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3]);
 void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
                    yb_point_t *point);
 
-/* A base triangle, with its corners in frame->root. */
-void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part);
+/* A base triangle, with its corners in frame->root. False: it is out of sight, as most are that lie
+ * behind the eye, and no more is known of it; `all`: it is not asked whether it is.
+ */
+bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part, bool all);
 
 /* REFINE_ONCE or more if one of a triangle's edges is split; below twice that, none of its parts
  * is.
@@ -126,34 +134,8 @@ static inline bool refine_splits(const yb_part_t *part)
     return refine_edges(part) >= REFINE_ONCE;
 }
 
-/* Begins a triangle with its next corner. */
-static inline void refine_rotate(yb_part_t *part)
-{
-    const yb_point_t *p = part->point[0];
-    const yb_edge_t edge = part->edge[0];
-    const int32_t eye = part->eye[0];
-    part->point[0] = part->point[1];
-    part->point[1] = part->point[2];
-    part->point[2] = p;
-    part->edge[0] = part->edge[1];
-    part->edge[1] = part->edge[2];
-    part->edge[2] = edge;
-    part->eye[0] = part->eye[1];
-    part->eye[1] = part->eye[2];
-    part->eye[2] = eye;
-}
-
-/* Turns a triangle that is to be split so that of the edges that are split ab is the first. */
-static inline void refine_turn(yb_part_t *part)
-{
-    while (part->edge[0] < REFINE_ONCE ||
-           (part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE)) {
-        refine_rotate(part);
-    }
-}
-
-/* Splits a triangle that is to be split: into the part that comes first, and what is laid aside
- * from `level` on, REFINE_PIECES at most. The answer is what follows it.
+/* Splits a triangle that is to be split: into the part that comes first, in its place, and what is
+ * laid aside from `level` on, REFINE_PIECES at most. The answer is what follows it.
  */
 enum {
     REFINE_PIECES = 3
@@ -161,8 +143,25 @@ enum {
 yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_part_t *part,
                          yb_level_t *level);
 
-/* Takes up what was laid aside last, between `bottom` and *top; false: there is nothing left. */
-bool refine_next(const yb_level_t *bottom, yb_level_t **top, yb_part_t *part);
+/* Of a part that is done with, the next: what was laid aside last between `bottom` and `from`, the
+ * end of what its splitting laid aside or, if it was not split, where it lies itself. It stays
+ * there until it is done with. NULL: there is nothing left.
+ */
+static inline yb_level_t *refine_next(const yb_level_t *bottom, yb_level_t *from, yb_part_t *done)
+{
+    done->point[0] = NULL;
+    while (from != bottom) {
+        if ((--from)->rest.point[0] != NULL)
+            return from;
+    }
+    return NULL;
+}
+
+/* From where on what a part that was laid aside is split into may be. */
+static inline yb_level_t *refine_top(yb_level_t *level)
+{
+    return level + (level->rest.point[2] == &level[1].middle ? 2 : 1);
+}
 
 /* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is
  * all rows.

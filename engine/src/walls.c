@@ -8,6 +8,7 @@
 #include "camera.h"
 #include "clip.h"
 #include "fix.h"
+#include "mesh.h"
 #include "refine.h"
 #include "shade.h"
 
@@ -30,6 +31,15 @@ static bool faces(const yb_frame_t *frame, yb_triangle_t triangle, int which)
            is_before(a->y_q8, b->y_q8, map->north_q8, eye[1]);
 }
 
+/* Has a triangle an edge on the frame? Of its three entries NO_TRIANGLE, and no other, carries into
+ * its mark's place when one is added.
+ */
+static inline bool is_on_frame(yb_across_t across)
+{
+    const yb_across_t each = 1 | (yb_across_t)1 << ENTRY_BITS | (yb_across_t)1 << 2 * ENTRY_BITS;
+    return (((across & NO_TRIANGLE * each) + each) & ENTRY_MARK * each) != 0;
+}
+
 void walls_begin(yb_frame_t *frame)
 {
     const yb_map_t *map = frame->map;
@@ -39,7 +49,10 @@ void walls_begin(yb_frame_t *frame)
     if (!frame->view.walls ||
         (eye[0] >= 0 && eye[0] <= map->east_q8 && eye[1] >= 0 && eye[1] <= map->north_q8))
         return;
+    const yb_across_t *const across = yb_map_across(map);
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
+        if (!is_on_frame(across[t]))
+            continue;
         for (int i = 0; i < 3; i++) {
             if (faces(frame, t, i))
                 frame->rim[t >> 3] = (uint8_t)(frame->rim[t >> 3] | 1 << (t & 7));
@@ -137,6 +150,10 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
     const int last_bin = refine_bin_of(frame, raster->end_row - 1);
     const yb_triangle_t count = frame->map->triangle_count;
     for (yb_triangle_t t = 0; t < count; t++) {
+        if (frame->rim[t >> 3] == 0) {
+            t |= 7;
+            continue;
+        }
         if (!walls_are_below(frame, t) ||
             (frame->binned && !refine_touches(frame, t, first_bin, last_bin)))
             continue;

@@ -67,9 +67,12 @@ static void walk(walk_t *at, yb_part_t part, int used)
     }
     yb_level_t rest[REFINE_PIECES];
     yb_level_t *top = refine_split(at->frame, at->view, &part, rest);
-    do {
-        walk(at, part, used + (int)(top - rest));
-    } while (refine_next(rest, &top, &part));
+    yb_level_t *level = top;
+    walk(at, part, used + (int)(top - rest));
+    for (yb_part_t *done = &part; (level = refine_next(rest, level, done)) != NULL;) {
+        done = &level->rest;
+        walk(at, *done, used + (int)(refine_top(level) - rest));
+    }
 }
 
 uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)
@@ -77,7 +80,7 @@ uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)
     walk_t at = {frame, plain_view(frame), fn, context, 0};
     for (int i = 0; i < frame->map->triangle_count; i++) {
         yb_part_t root;
-        refine_root(frame, plain_view(frame), frame->order[i], &root);
+        (void)refine_root(frame, plain_view(frame), frame->order[i], &root, true);
         walk(&at, root, 0);
     }
     return at.count;

@@ -69,7 +69,7 @@ static void edges_are_the_same_from_both_ends(void **state)
         (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
             check_leaf(NULL, root.point);
         }
     }
@@ -84,7 +84,7 @@ static void midpoints_are_the_surfaces(void **state)
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
@@ -155,10 +155,12 @@ static void descend(bounds_t *bounds, yb_part_t part)
         check_point(bounds, part.point[i]);
     if (splits) {
         yb_level_t rest[REFINE_PIECES];
-        yb_level_t *top = refine_split(&frame, &bounds->view, &part, rest);
-        do {
-            descend(bounds, part);
-        } while (refine_next(rest, &top, &part));
+        yb_level_t *level = refine_split(&frame, &bounds->view, &part, rest);
+        descend(bounds, part);
+        for (yb_part_t *done = &part; (level = refine_next(rest, level, done)) != NULL;) {
+            done = &level->rest;
+            descend(bounds, *done);
+        }
     }
     bounds->depth--;
 }
@@ -175,7 +177,7 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root, true);
             descend(&bounds, root);
         }
     }
@@ -202,10 +204,12 @@ static void check_bins(int t, yb_part_t part)
     if (!refine_splits(&part))
         return;
     yb_level_t rest[REFINE_PIECES];
-    yb_level_t *top = refine_split(&frame, plain_view(&frame), &part, rest);
-    do {
-        check_bins(t, part);
-    } while (refine_next(rest, &top, &part));
+    yb_level_t *level = refine_split(&frame, plain_view(&frame), &part, rest);
+    check_bins(t, part);
+    for (yb_part_t *done = &part; (level = refine_next(rest, level, done)) != NULL;) {
+        done = &level->rest;
+        check_bins(t, *done);
+    }
 }
 
 static void bins_hold_their_triangles(void **state)
@@ -225,7 +229,7 @@ static void bins_hold_their_triangles(void **state)
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
             refine_bin(&frame, &whole, (yb_triangle_t)t);
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
             check_bins(t, root);
         }
     }
