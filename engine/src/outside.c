@@ -72,21 +72,31 @@ typedef struct {
     int32_t near; /* greatest 1/depth */
 } box_t;
 
-/* False: not all of them have spots. */
-static bool find_box(const yb_point_t *const *p, int count, box_t *box)
+static inline void begin_box(box_t *box)
 {
     box->near = 0;
     box->left = box->top = INT32_MAX;
     box->right = box->bottom = INT32_MIN;
+}
+
+static inline void widen_to(box_t *box, int32_t x_q4, int32_t y_q4, int32_t near)
+{
+    box->near = fix_max(box->near, near);
+    box->left = fix_min(box->left, x_q4);
+    box->right = fix_max(box->right, x_q4);
+    box->top = fix_min(box->top, y_q4);
+    box->bottom = fix_max(box->bottom, y_q4);
+}
+
+/* False: not all of them have spots. */
+static bool find_box(const yb_point_t *const *p, int count, box_t *box)
+{
+    begin_box(box);
     for (int k = 0; k < count; k++) {
         const yb_spot_t *spot = &p[k]->spot;
         if (spot->near == 0)
             return false;
-        box->near = fix_max(box->near, spot->near);
-        box->left = fix_min(box->left, spot->x_q4);
-        box->right = fix_max(box->right, spot->x_q4);
-        box->top = fix_min(box->top, spot->y_q4);
-        box->bottom = fix_max(box->bottom, spot->y_q4);
+        widen_to(box, spot->x_q4, spot->y_q4, spot->near);
     }
     return true;
 }
@@ -251,78 +261,121 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
 /* --- Rows ------------------------------------------------------------------------------------- */
 
 /* How far refinement can move a point of a base triangle, as limited_stray: no edge is longer than
- * its longest side, nor any point nearer than `near`, a 1/depth, so that none is halved more often
- * than that side would be there. A refine_edge is at most 6.8 % longer than it should be, and this
- * side at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
+ * its box in plan is across, nor any point nearer than `near`, a 1/depth, so that none is halved
+ * more often than that line would be there. A refine_edge is at most 6.8 % longer than it should
+ * be, and this line at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
  */
 typedef struct {
     int32_t stray;
     int often; /* how often an edge may be halved */
 } reach_t;
 
-static reach_t whole_reach(const yb_frame_t *frame, const yb_point_t *const p[3], int32_t near)
+static inline int32_t spread(int32_t a, int32_t b, int32_t c)
+{
+    return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
+}
+
+/* How far the smooth surface rises or falls at the middle of an edge. */
+static inline int32_t bend_of(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    return fix_abs(relief_bulge((int32_t)b->gx_q11 - a->gx_q11, (int32_t)b->gy_q11 - a->gy_q11,
+                                fix_minus(a->x_q8, b->x_q8), fix_minus(a->y_q8, b->y_q8)));
+}
+
+/* As refine_bulge, and the noise. */
+static reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near)
 {
     const yb_map_t *map = frame->map;
-    uint32_t square = 0;
-    uint32_t length = 0;
-    for (int i = 0; i < 3; i++) {
-        const yb_point_t *q = p[i == 2 ? 0 : i + 1];
-        int32_t dx = relief_dx(p[i]->place, q->place);
-        int32_t dy = relief_dy(p[i]->place, q->place);
-        uint32_t other = relief_half_square(dx, dy);
-        square = other > square ? other : square;
-        length = (uint32_t)fix_max((int32_t)length, fix_length(dx, dy));
-    }
+    const int32_t wide = spread(v[0]->x_q8, v[1]->x_q8, v[2]->x_q8);
+    const int32_t high = spread(v[0]->y_q8, v[1]->y_q8, v[2]->y_q8);
+    const uint32_t length = (uint32_t)fix_length(wide, high);
     reach_t reach = {0, 0};
     uint32_t size = ((length + (length >> 3)) >> 1) * (uint32_t)near;
     for (; size > frame->longest; size >>= 1)
         reach.often++;
-    if (reach.often > 0) {
-        const relief_bound_t bound = {0, relief_square_class(square)};
-        int32_t noise = relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often);
-        reach.stray = refine_bulge(map, p) + 17 + (noise >> 1);
+    if (reach.often == 0)
+        return reach;
+    const relief_bound_t bound = {0, relief_class(wide, high)};
+    reach.stray = 17 + (relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often) >> 1);
+    if (map->smooth) {
+        const int32_t bulge =
+            fix_max(bend_of(v[0], v[1]), fix_max(bend_of(v[1], v[2]), bend_of(v[2], v[0])));
+        reach.stray += 2 * bulge + (bulge >> 1);
     }
-    reach.stray = stray_in_water(frame, p, reach.stray);
     return reach;
 }
 
-/* The rows that a base triangle, whatever it becomes, and what else stands at some points may
- * touch. False: it is not on the screen.
- */
-static bool find_bins(const yb_frame_t *frame, const refine_view_t *whole,
-                      const yb_point_t *const p[], int count, int32_t *first, int32_t *last)
+/* With the spare of a box nothing comes nearer by more than an eighth: 8/7. */
+static inline int32_t nearest_in(const box_t *box)
 {
-    box_t box;
-    if (find_box(p, count, &box)) {
-        /* With the spare of a box nothing comes nearer by more than an eighth: 8/7. */
-        const int32_t near = fix_min(box.near + box.near / 7 + 1, 65535);
-        const reach_t reach = whole_reach(frame, p, near);
-        spare_t spare;
-        if (find_part_spare(frame, reach.often, reach.stray, box.near, &spare)) {
-            widen_box(&spare, &box);
-            *first = fix_clamp(box.top >> 4, 0, *last);
-            *last = fix_clamp(box.bottom >> 4, 0, *last);
-            return !box_misses(whole, &box);
-        }
-    }
-    return !misses_planes(frame, whole, p, count, whole_reach(frame, p, 65535).stray);
+    return fix_min(box->near + box->near / 7 + 1, 65535);
 }
 
-void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
+/* The rows that a base triangle of which so much is known may touch, whatever it becomes. False: it
+ * is not on the screen.
+ */
+static bool find_bins(const yb_frame_t *frame, const refine_view_t *whole, box_t *box,
+                      const reach_t *reach, int32_t *first, int32_t *last)
+{
+    spare_t spare;
+    if (!find_part_spare(frame, reach->often, reach->stray, box->near, &spare))
+        return true;
+    widen_box(&spare, box);
+    *first = fix_clamp(box->top >> 4, 0, *last);
+    *last = fix_clamp(box->bottom >> 4, 0, *last);
+    return !box_misses(whole, box);
+}
+
+/* The same with the wall that stands below it, or where some of it has no spot or is under water.
+ */
+APART bool find_more_bins(const yb_frame_t *frame, const refine_view_t *whole,
+                          yb_triangle_t triangle, const yb_vertex_t *const v[3], int32_t *first,
+                          int32_t *last)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
-    const bool walls = walls_are_below(frame, triangle);
     yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
     const yb_point_t *const p[REFINE_POINTS] = {&root[0], &root[1], &root[2],
                                                 &root[3], &root[4], &root[5]};
+    const bool walls = walls_are_below(frame, triangle);
+    const int count = walls ? REFINE_POINTS : 3;
     for (int i = 0; i < 3; i++) {
         camera_root(frame, corner[i], &root[i]);
         if (walls)
             camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
     }
+    box_t box;
+    const bool seen = find_box(p, count, &box);
+    reach_t reach = whole_reach(frame, v, seen ? nearest_in(&box) : 65535);
+    reach.stray = stray_in_water(frame, p, reach.stray);
+    spare_t spare;
+    if (seen && find_part_spare(frame, reach.often, reach.stray, box.near, &spare))
+        return find_bins(frame, whole, &box, &reach, first, last);
+    return !misses_planes(frame, whole, p, count, reach.stray);
+}
+
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
+{
+    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    const yb_vertex_t *v[3];
+    bool plain = frame->view.water_q8 == YB_NO_WATER && !walls_are_below(frame, triangle);
+    box_t box;
+    begin_box(&box);
+    for (int i = 0; i < 3; i++) {
+        const yb_seen_t *seen = &frame->seen[corner[i]];
+        v[i] = &frame->map->vertex[corner[i]];
+        plain = plain && seen->near != 0;
+        widen_to(&box, seen->x_q4, seen->y_q4, seen->near);
+    }
     int32_t first = 0;
     int32_t last = frame->screen.height - 1;
-    if (!find_bins(frame, whole, p, walls ? REFINE_POINTS : 3, &first, &last)) {
+    bool shown;
+    if (plain) {
+        const reach_t reach = whole_reach(frame, v, nearest_in(&box));
+        shown = find_bins(frame, whole, &box, &reach, &first, &last);
+    } else {
+        shown = find_more_bins(frame, whole, triangle, v, &first, &last);
+    }
+    if (!shown) {
         first = frame->screen.height - 1;
         last = 0;
     }
