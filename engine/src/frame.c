@@ -170,12 +170,7 @@ static void draw_in_order(yb_frame_t *frame, const raster_t *raster)
 
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
 {
-    const raster_t raster = {
-        .screen = &frame->screen,
-        .band = band,
-        .first_row = fix_min(band->y, frame->screen.height),
-        .end_row = fix_min(band->y + band->rows, frame->screen.height),
-    };
+    const raster_t raster = pixels_open(&frame->screen, band);
     for (int32_t y = raster.first_row; y < raster.end_row; y++)
         pixels_clear(&raster, y, colour_sky(frame, y));
     draw_in_order(frame, &raster);

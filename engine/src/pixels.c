@@ -18,7 +18,7 @@ void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky)
 {
     uint8_t *at = pixels_row(raster, y);
     uint8_t *const end = at + yb_band_row_bytes(raster->screen);
-    if (!pixels_have_colours(raster->screen)) {
+    if (!raster->colours) {
         for (; at != end; at++)
             *at = 0;
         return;

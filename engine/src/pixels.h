@@ -11,26 +11,29 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "fix.h"
 #include "raster.h"
 
-static inline bool pixels_have_colours(const yb_screen_t *screen)
+/* A band of a screen to be drawn on. */
+static inline raster_t pixels_open(const yb_screen_t *screen, const yb_band_t *band)
 {
-    return screen->format == YB_RGB565;
-}
-
-/* Bytes from one row to the next. */
-static inline size_t pixels_pitch(const raster_t *raster)
-{
-    return raster->screen->format == YB_MONO ? yb_band_row_bytes(raster->screen)
-                                             : raster->band->pitch;
+    const bool mono = screen->format == YB_MONO;
+    return (raster_t){
+        .screen = screen,
+        .band = band,
+        .first_row = fix_min(band->y, screen->height),
+        .end_row = fix_min(band->y + band->rows, screen->height),
+        .pixels = mono ? band->greys : band->pixels,
+        .pitch = mono ? yb_band_row_bytes(screen) : band->pitch,
+        .top = band->y,
+        .colours = screen->format == YB_RGB565,
+    };
 }
 
 /* Row y of the screen. */
 static inline uint8_t *pixels_row(const raster_t *raster, int32_t y)
 {
-    const yb_band_t *band = raster->band;
-    uint8_t *const first = raster->screen->format == YB_MONO ? band->greys : band->pixels;
-    return first + (size_t)(y - band->y) * pixels_pitch(raster);
+    return raster->pixels + (size_t)(y - raster->top) * raster->pitch;
 }
 
 /* The bit of a colour that tells what is drawn. */
@@ -83,18 +86,23 @@ static inline void pixels_fill_colour(uint8_t *row, int32_t x, int32_t end, uint
 {
     const uint16_t swapped = pixels_swapped(colour);
     uint8_t *at = row + 2 * x;
-    uint8_t *const to = row + 2 * end;
-    if (to - at >= 8) {
+    int32_t left = end - x;
+    if (left >= 4) {
         const uint32_t pair = swapped * (uint32_t)0x10001;
         if (((uintptr_t)at & 2) != 0) {
             pixels_put_colour(at, swapped);
             at += 2;
+            left--;
         }
-        for (; to - at >= 4; at += 4)
+        for (; left >= 2; left -= 2) {
             pixels_put_pair(at, pair);
+            at += 4;
+        }
     }
-    for (; at < to; at += 2)
+    for (; left > 0; left--) {
         pixels_put_colour(at, swapped);
+        at += 2;
+    }
 }
 
 static inline void pixels_put_grey(uint8_t *row, int32_t x, unsigned grey)
@@ -117,7 +125,7 @@ static inline void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsign
         at++;
     }
     const unsigned high = grey << 4;
-    for (; at < to; at++) {
+    for (; at != to; at++) {
         unsigned both = *at;
         if ((both & 0xf0) == 0)
             both |= high;
@@ -125,8 +133,8 @@ static inline void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsign
             both |= grey;
         *at = (uint8_t)both;
     }
-    if ((end & 1) != 0 && at == to && (*at & 0xf0) == 0)
-        *at = (uint8_t)(*at | high);
+    if ((end & 1) != 0 && (*to & 0xf0) == 0)
+        *to = (uint8_t)(*to | high);
 }
 
 /* Nothing but the sky in row y. */

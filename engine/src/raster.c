@@ -13,17 +13,25 @@ typedef struct {
     uint32_t at, step; /* it may wrap after the last row */
 } side_t;
 
-/* The side down from one corner to another at row y. It lies within 24 + 3 RASTER_WIDE_Q4 of the
- * base: below 2^31 with its 20 fractional bits.
+/* The side down from one corner to another, at row y, right of a base that is given as by
+ * begin_base. It lies within 24 + 3 RASTER_WIDE_Q4 of it: below 2^31 with its 20 fractional bits.
  */
-static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, int32_t base_q4,
+static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, uint32_t base,
                                 int32_t y)
 {
     const int32_t slope =
         rows_small_slope(to->x_q4 - (int32_t)from->x_q4, to->y_q4 - (int32_t)from->y_q4);
-    const int32_t at = (from->x_q4 - base_q4) * ((int32_t)1 << ROWS_FRACTION) - 1 +
-                       slope * (y * 16 + 8 - from->y_q4);
-    return (side_t){(uint32_t)at, (uint32_t)slope << 4};
+    const uint32_t start = base + ((uint32_t)from->x_q4 << ROWS_FRACTION);
+    return (side_t){start + (uint32_t)slope * (uint32_t)(y * 16 + 8 - from->y_q4),
+                    (uint32_t)slope << 4};
+}
+
+/* What is to be added to a coordinate: pixels from a base, 8 sixteenths for the first whose centre
+ * is not left of it, and the rounding.
+ */
+static inline uint32_t begin_base(int32_t base)
+{
+    return ((uint32_t)(8 - base * 16) << ROWS_FRACTION) - ROWS_HALF;
 }
 
 static inline int32_t crossing_of(const side_t *side)
@@ -31,31 +39,29 @@ static inline int32_t crossing_of(const side_t *side)
     return (int32_t)side->at >> ROWS_PIXEL;
 }
 
-/* Where speed counts more than size, there is a copy with colours and one without, for lines and
- * for none: branching on that would be a seventh of what a triangle costs.
- */
-
 /* Draws a small triangle: in one pixel value, or with lines. */
-COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
-                       uint16_t pixel, const raster_cut_t *cut)
+ROWS_COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
+                            uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];
     const yb_spot_t *c = shape->p[2];
-    int32_t y = fix_max(shape->top, raster->first_row);
-    const int32_t end = fix_min(shape->bottom, raster->end_row);
-    /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
-    const int32_t left_end = raster_pixel(b->y_q4);
-    const int32_t right_end = raster_pixel(c->y_q4);
-    const int32_t base = a->x_q4 >> 5 << 1; /* even: two greys are a byte */
-    const int32_t centre_q4 = base * 16 - 8;
-    side_t left = begin_side(y < left_end ? a : b, y < left_end ? b : c, centre_q4, y);
-    side_t right = begin_side(y < right_end ? a : c, y < right_end ? c : b, centre_q4, y);
-    const size_t pitch = pixels_pitch(raster);
-    uint8_t *row = pixels_row(raster, y) + (colours ? 2 * base : base / 2);
+    const int32_t pair = a->x_q4 >> 5; /* of pixels: two greys are a byte */
+    const int32_t y = shape->top;
+    uint8_t *row = pixels_row(raster, y) + (colours ? 4 * pair : pair);
+    const size_t pitch = raster->pitch;
     uint32_t value = 0;
     if (cut != NULL)
-        value = rows_value(cut, y) + (uint32_t)cut->along_x * (uint32_t)base;
+        value = rows_value(cut, y) + (uint32_t)cut->along_x * 2 * (uint32_t)pair;
+    /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
+    const bool turns_left = b->y_q4 < c->y_q4;
+    const int32_t turn = raster_pixel(turns_left ? b->y_q4 : c->y_q4);
+    const bool turned = y >= turn;
+    const uint32_t base = begin_base(2 * pair);
+    side_t left = turned && turns_left ? begin_side(b, c, base, y) : begin_side(a, b, base, y);
+    side_t right = turned && !turns_left ? begin_side(c, b, base, y) : begin_side(a, c, base, y);
+    int32_t rest = turned ? 0 : shape->bottom - turn;
+    int32_t rows = rest > 0 ? turn - y : shape->bottom - y;
     for (;;) {
         if (cut != NULL) {
             rows_cut(colours, row, crossing_of(&left), crossing_of(&right), value, cut);
@@ -63,40 +69,44 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
         } else {
             rows_fill(colours, row, crossing_of(&left), crossing_of(&right), pixel);
         }
-        if (++y == end)
-            return;
         row += pitch;
         left.at += left.step;
         right.at += right.step;
-        if (y == left_end)
-            left = begin_side(b, c, centre_q4, y);
-        if (y == right_end)
-            right = begin_side(c, b, centre_q4, y);
+        if (--rows == 0) {
+            if (rest <= 0)
+                return;
+            if (turns_left)
+                left = begin_side(b, c, base, turn);
+            else
+                right = begin_side(c, b, base, turn);
+            rows = rest;
+            rest = 0;
+        }
     }
 }
 
-static void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
+APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
 {
-    if (pixels_have_colours(raster->screen))
-        draw_level(true, raster, shape, 0, cut);
-    else
-        draw_level(false, raster, shape, 0, cut);
+    ROWS_DRAW(draw_level, raster, shape, 0, cut);
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
-    if (shape->top >= raster->end_row || shape->bottom <= raster->first_row)
-        return;
     if (cut != NULL)
         draw_lines(raster, shape, cut);
-    else if (pixels_have_colours(raster->screen))
-        draw_level(true, raster, shape, pixel, NULL);
     else
-        draw_level(false, raster, shape, pixel, NULL);
+        ROWS_DRAW(draw_level, raster, shape, pixel, NULL);
 }
 
 /* --- Triangles -------------------------------------------------------------------------------- */
+
+bool raster_clip(const raster_t *raster, raster_shape_t *shape)
+{
+    shape->top = fix_max(shape->top, raster->first_row);
+    shape->bottom = fix_min(shape->bottom, raster->end_row);
+    return shape->top < shape->bottom;
+}
 
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)

@@ -36,6 +36,10 @@ typedef struct {
     int32_t first_row, end_row; /* of the screen */
     yb_triangle_fn each;        /* takes what would be drawn, if there is no band */
     void *context;
+    uint8_t *pixels; /* of the band, as they are while it is drawn: see pixels.h */
+    size_t pitch;    /* bytes from one row of them to the next */
+    int32_t top;     /* their first row */
+    bool colours;
 } raster_t;
 
 /* First pixel whose centre is at or right of (below) a coordinate. */
@@ -99,11 +103,14 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
                : RASTER_FRONT;
 }
 
-/* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, in one pixel value, where
- * nothing is drawn yet. A pixel is covered if its centre is inside, or on a top or left edge:
- * pixels along the common edge of two triangles are drawn once, none is left out. The first is for
- * small ones alone that lie between the screen's left and right side. With a cut (or NULL) both
- * draw its lines.
+/* Leaves what is in the raster's rows of a triangle. False: nothing. */
+bool raster_clip(const raster_t *raster, raster_shape_t *shape);
+
+/* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, and that lies in the
+ * raster's rows, by its corners or by raster_clip: in one pixel value, where nothing is drawn yet.
+ * A pixel is covered if its centre is inside, or on a top or left edge: pixels along the common
+ * edge of two triangles are drawn once, none is left out. The first is for small ones alone that
+ * lie between the screen's left and right side. With a cut (or NULL) both draw its lines.
  */
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut);
@@ -115,9 +122,11 @@ static inline bool raster_on_screen(const raster_t *raster, const yb_spot_t *p)
     return (uint32_t)p->x_q4 <= raster->screen->width * (uint32_t)16;
 }
 
-static inline void raster_fill(const raster_t *raster, const raster_shape_t *shape,
-                               raster_look_t look, uint16_t pixel, const raster_cut_t *cut)
+static inline void raster_fill(const raster_t *raster, raster_shape_t *shape, raster_look_t look,
+                               uint16_t pixel, const raster_cut_t *cut)
 {
+    if (!raster_clip(raster, shape))
+        return;
     if (look == RASTER_SMALL && raster_on_screen(raster, shape->p[0]) &&
         raster_on_screen(raster, shape->p[1]) && raster_on_screen(raster, shape->p[2]))
         raster_level(raster, shape, pixel, cut);

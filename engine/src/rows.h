@@ -16,14 +16,24 @@ enum {
     ROWS_PIXEL = ROWS_FRACTION + 4
 };
 
-/* How far right a side of a small triangle goes in a sixteenth of a row. A side is a function of
- * its two corners, whichever way it is drawn: both triangles at it come to the same pixels, where
- * the one ends and the other begins.
+/* A side is a function of its two corners, whichever way it is drawn: both triangles at it come to
+ * the same pixels, where the one ends and the other begins. A small triangle's goes at most
+ * 2 RASTER_WIDE_Q4 < 2^10 to a side and at most RASTER_HIGH_Q4 < 2^8 down, and where it crosses
+ * a row is a multiple of 1/RASTER_HIGH_Q4 or of more: 2^20 / 255 = 4112. What is taken for it,
+ * rounded, may be off by less than half of that, and if half of that is taken away beforehand, its
+ * whole pixels are right: a centre on the side is still right of it.
+ */
+enum {
+    ROWS_HALF = 2048
+};
+
+/* How far right a side of a small triangle goes in a sixteenth of a row, within 2: what is off by
+ * that in every sixteenth, up to 255 times, is off by less than ROWS_HALF.
  */
 static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
 {
     /* The inverse is rounded down, so this is off by less than dx: what is left of dx goes round
-     * again. |dx| is at most 2 RASTER_WIDE_Q4 < 2^10, and all products are below 2^30. */
+     * again. All products are below 2^30. */
     const int32_t inverse = fix_inverse(dy);
     const int32_t slope = dx * inverse;
     const int32_t left = dx * ((int32_t)1 << ROWS_FRACTION) - slope * dy;
@@ -43,6 +53,18 @@ static inline uint16_t cut_at(const raster_cut_t *cut, uint32_t value)
 {
     return value <= cut->width ? cut->line : (int32_t)value < 0 ? cut->below : cut->above;
 }
+
+/* Where speed counts more than size, there is a copy with colours and one without, for lines and
+ * for none: branching on that would be a seventh of what a triangle costs.
+ */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define ROWS_COPIED static inline __attribute__((always_inline))
+#define ROWS_DRAW(draw, raster, ...)                                                               \
+    ((raster)->colours ? draw(true, raster, __VA_ARGS__) : draw(false, raster, __VA_ARGS__))
+#else
+#define ROWS_COPIED static
+#define ROWS_DRAW(draw, raster, ...) draw((raster)->colours, raster, __VA_ARGS__)
+#endif
 
 /* --- Pixels ------------------------------------------------------------------------------------
  */

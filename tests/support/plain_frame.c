@@ -121,7 +121,7 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 void plain_frame(yb_frame_t *frame, const yb_band_t *band)
 {
     const int32_t height = frame->screen.height;
-    drawing_t drawing = {frame, {&frame->screen, band, 0, height, NULL, NULL}};
+    drawing_t drawing = {frame, pixels_open(&frame->screen, band)};
     raster_t *raster = &drawing.raster;
     for (int32_t y = 0; y < height; y++)
         pixels_clear(raster, y, colour_sky(frame, y));

@@ -152,7 +152,7 @@ static void check_view(const yb_view_t *view, sum_t *sum)
 {
     const yb_screen_t screen = {WIDTH, HEIGHT, YB_RGB565};
     const yb_band_t band = {0, HEIGHT, pixels, sizeof pixels / HEIGHT, NULL};
-    raster_t raster = {&screen, &band, 0, HEIGHT, NULL, NULL};
+    raster_t raster = pixels_open(&screen, &band);
     yb_frame_begin(&frame, &map, view, &screen);
     for (int y = 0; y < HEIGHT; y++)
         pixels_clear(&raster, y, 0);

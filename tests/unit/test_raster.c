@@ -31,7 +31,7 @@ static void open_page(page_t *page, yb_format_t format, int y, int rows)
 {
     page->screen = (yb_screen_t){WIDTH, HEIGHT, format};
     page->band = (yb_band_t){(uint16_t)y, (uint16_t)rows, pixels + GUARD, PITCH, greys};
-    page->raster = (raster_t){&page->screen, &page->band, y, y + rows, NULL, NULL};
+    page->raster = pixels_open(&page->screen, &page->band);
     memset(pixels, 0xa5, sizeof pixels);
     for (int i = 0; i < rows; i++)
         pixels_clear(&page->raster, y + i, 0);
@@ -337,6 +337,8 @@ static void both_ways_are_the_same(void **state)
         const int rows = rng_range(&rng, 1, HEIGHT);
         const int first = rng_range(&rng, 0, HEIGHT - rows);
         open_page(&page, formats[round % 3], first, rows);
+        if (!raster_clip(&page.raster, &shape))
+            continue;
         raster_level(&page.raster, &shape, value_of(&page.screen, 9), lines);
         memcpy(level, pixels, sizeof pixels);
         memcpy(level_greys, greys, sizeof greys);
@@ -347,7 +349,7 @@ static void both_ways_are_the_same(void **state)
             assert_memory_equal(level_greys, greys, (size_t)(WIDTH / 2 * rows));
         pairs++;
     }
-    assert_true(pairs > 5000);
+    assert_true(pairs > 3000);
 }
 
 /* What covers a pixel first stays, whatever comes after it. */
@@ -395,7 +397,7 @@ static void huge_triangles_fit(void **state)
     for (int round = 0; round < 2000; round++) {
         int y = rng_range(&rng, 0, YB_MAX_SIDE - 1);
         yb_band_t band = {(uint16_t)y, 1, row, sizeof row, NULL};
-        raster_t raster = {&screen, &band, y, y + 1, NULL, NULL};
+        raster_t raster = pixels_open(&screen, &band);
         pixels_clear(&raster, y, 0);
         yb_spot_t p[3];
         for (int k = 0; k < 3; k++) {
@@ -454,7 +456,8 @@ static void lines_lie_where_they_should(void **state)
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
         raster_shape_t shape;
-        if (raster_front(&p[0], &p[1], &p[2], &shape) == RASTER_NOTHING)
+        if (raster_front(&p[0], &p[1], &p[2], &shape) == RASTER_NOTHING ||
+            !raster_clip(&page.raster, &shape))
             continue;
         const bool cuts = find_lines(p, value, zero, interval, &cut);
         assert_true(cuts || interval > 0);
