@@ -267,7 +267,7 @@ static void find_lengths(yb_frame_t *frame, uint64_t whole)
      * meet no pixel's centre. Made for as many on 128 and on 320 pixels. */
     int32_t width = frame->screen.width;
     if (edge_q4 == 0)
-        edge_q4 = (uint32_t)fix_max(14 * width / 15 - 16, (width + 1) >> 1);
+        edge_q4 = (uint32_t)fix_max(89 * width / 96 - 15, (width + 1) >> 1);
     frame->thin_q4 = (int32_t)edge_q4;
     frame->longest = fix_share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
 }

@@ -283,7 +283,7 @@ static inline int32_t bend_of(const yb_vertex_t *a, const yb_vertex_t *b)
 }
 
 /* As refine_bulge, and the noise. */
-static reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near)
+COPIED reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near)
 {
     const yb_map_t *map = frame->map;
     const int32_t wide = spread(v[0]->x_q8, v[1]->x_q8, v[2]->x_q8);
@@ -314,7 +314,7 @@ static inline int32_t nearest_in(const box_t *box)
 /* The rows that a base triangle of which so much is known may touch, whatever it becomes. False: it
  * is not on the screen.
  */
-static bool find_bins(const yb_frame_t *frame, const refine_view_t *whole, box_t *box,
+COPIED bool find_bins(const yb_frame_t *frame, const refine_view_t *whole, box_t *box,
                       const reach_t *reach, int32_t *first, int32_t *last)
 {
     spare_t spare;

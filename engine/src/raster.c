@@ -101,13 +101,6 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
-bool raster_clip(const raster_t *raster, raster_shape_t *shape)
-{
-    shape->top = fix_max(shape->top, raster->first_row);
-    shape->bottom = fix_min(shape->bottom, raster->end_row);
-    return shape->top < shape->bottom;
-}
-
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)
 {

@@ -49,7 +49,8 @@ static inline int32_t raster_pixel(int32_t q4)
 }
 
 typedef enum {
-    RASTER_NOTHING, /* seen from behind, or between two rows of pixels' centres */
+    RASTER_NOTHING, /* seen from behind, or from its side */
+    RASTER_BETWEEN, /* between two rows of pixels' centres: there is nothing to draw */
     RASTER_FRONT,
     RASTER_SMALL, /* and small */
     RASTER_BEYOND /* a corner has no spot: it must be clipped */
@@ -87,13 +88,13 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
     const int32_t low = b->y_q4 > c->y_q4 ? b->y_q4 : c->y_q4;
     shape->top = raster_pixel(high);
     shape->bottom = raster_pixel(low);
-    if (shape->top == shape->bottom)
-        return RASTER_NOTHING;
     const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
     const int32_t cx = (int32_t)c->x_q4 - a->x_q4;
     /* y points down: a front, counter-clockwise with y up, is negative here. */
     if ((raster_area_t)bx * (c->y_q4 - high) - (raster_area_t)(b->y_q4 - high) * cx >= 0)
         return RASTER_NOTHING;
+    if (shape->top == shape->bottom)
+        return RASTER_BETWEEN;
     shape->p[0] = a;
     shape->p[1] = b;
     shape->p[2] = c;
@@ -104,7 +105,12 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
 }
 
 /* Leaves what is in the raster's rows of a triangle. False: nothing. */
-bool raster_clip(const raster_t *raster, raster_shape_t *shape);
+static inline bool raster_clip(const raster_t *raster, raster_shape_t *shape)
+{
+    shape->top = shape->top > raster->first_row ? shape->top : raster->first_row;
+    shape->bottom = shape->bottom < raster->end_row ? shape->bottom : raster->end_row;
+    return shape->top < shape->bottom;
+}
 
 /* Draw a triangle that raster_front finds RASTER_FRONT, or RASTER_SMALL, and that lies in the
  * raster's rows, by its corners or by raster_clip: in one pixel value, where nothing is drawn yet.

@@ -606,12 +606,13 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
         hand_out(raster, p);
         return;
     }
+    /* As raster_fill, by what is known of the corners already. */
+    if (look == RASTER_BETWEEN ||
+        ((some & (REFINE_ABOVE | REFINE_BELOW)) != 0 && !raster_clip(raster, &shape)))
+        return;
     const shade_t shade = shade_ground(frame, p);
     raster_cut_t cut;
     const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
-    /* As raster_fill, by what is known of the corners already. */
-    if ((some & (REFINE_ABOVE | REFINE_BELOW)) != 0 && !raster_clip(raster, &shape))
-        return;
     if (look == RASTER_SMALL && (some & (REFINE_LEFT | REFINE_RIGHT)) == 0)
         raster_level(raster, &shape, shade.pixel, cuts ? &cut : NULL);
     else

@@ -180,7 +180,7 @@ static inline bool refine_touches(const yb_frame_t *frame, yb_triangle_t triangl
                                   int last_bin)
 {
     const int bins = frame->bins[triangle];
-    return bins >> 4 <= last_bin && (bins & 15) >= first_bin && bins >> 4 <= (bins & 15);
+    return bins >> 4 <= last_bin && (bins & 15) >= first_bin;
 }
 
 /* Refines the base triangles that may touch the rows of a raster, in the frame's order, and draws

@@ -9,9 +9,6 @@ enum {
     LONGEST_CLASS = 48     /* 32 steps: longer edges move like these */
 };
 
-/* What gravity leaves: see relief_reach. */
-#define MOST_REACH_Q8 400000
-
 /* One in the units of fix_log2_q11. */
 #define ONE_Q11 ((int32_t)2048)
 
@@ -85,23 +82,6 @@ void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound)
     /* The parabola through the midpoints bulges at most 4/3 of the largest rise; rounding of 16
      * levels adds at most as many units. */
     bound->bulge_q8 = rise + (rise >> 1) + 16;
-}
-
-int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int shortest)
-{
-    if (!map->detail || bound->longest < shortest)
-        return bound->bulge_q8;
-    /* A reach too large for its table is one that gravity limits: the noise of an edge is at most
-     * its length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L.
-     */
-    int32_t reach = map->reach_q8[bound->longest];
-    if (reach == UINT16_MAX)
-        return bound->bulge_q8 + MOST_REACH_Q8;
-    /* Classes of the halved edges go down by four; those below the shortest do not count. */
-    int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
-    if (uncounted >= 0)
-        reach -= map->reach_q8[uncounted];
-    return bound->bulge_q8 + reach;
 }
 
 /* --- The constants of the map ----------------------------------------------------------------- */

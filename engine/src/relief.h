@@ -170,9 +170,27 @@ typedef struct {
 
 void relief_bound(const yb_vertex_t *const corner[3], relief_bound_t *bound);
 
+/* What gravity leaves: see below. */
+#define RELIEF_MOST_REACH_Q8 400000
+
 /* How far refinement can move any point of the triangle from its plane, at most, if no edge of a
  * class below `shortest` is split.
  */
-int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int shortest);
+static inline int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bound, int shortest)
+{
+    if (!map->detail || bound->longest < shortest)
+        return bound->bulge_q8;
+    /* A reach too large for its table is one that gravity limits: the noise of an edge is at most
+     * its length L, below 98700 with fix_length's excess, and twice that at each level makes 4 L.
+     */
+    int32_t reach = map->reach_q8[bound->longest];
+    if (reach == UINT16_MAX)
+        return bound->bulge_q8 + RELIEF_MOST_REACH_Q8;
+    /* Classes of the halved edges go down by four; those below the shortest do not count. */
+    int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
+    if (uncounted >= 0)
+        reach -= map->reach_q8[uncounted];
+    return bound->bulge_q8 + reach;
+}
 
 #endif

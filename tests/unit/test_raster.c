@@ -456,7 +456,7 @@ static void lines_lie_where_they_should(void **state)
         page_t page;
         open_page(&page, YB_GREY4, 0, HEIGHT);
         raster_shape_t shape;
-        if (raster_front(&p[0], &p[1], &p[2], &shape) == RASTER_NOTHING ||
+        if (raster_front(&p[0], &p[1], &p[2], &shape) <= RASTER_BETWEEN ||
             !raster_clip(&page.raster, &shape))
             continue;
         const bool cuts = find_lines(p, value, zero, interval, &cut);

@@ -524,7 +524,7 @@ static inline size_t yb_band_row_bytes(const yb_screen_t *screen)
 /* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
 typedef struct {
     uint32_t refined;       /* triangles at the end of refinement */
-    uint32_t drawn;         /* of those, front-facing and in a row of the screen */
+    uint32_t drawn;         /* of those, front-facing and on the screen: handed to the rasteriser */
     uint32_t depth_limited; /* left unsplit for want of YB_MAX_LEVELS */
 } yb_stats_t;
 
