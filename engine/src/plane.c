@@ -29,8 +29,8 @@ static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t
 }
 
 /* Draws a triangle: in one pixel value, or with lines. */
-ROWS_COPIED void draw_plane(bool colours, const raster_t *raster, const raster_shape_t *shape,
-                            uint16_t pixel, const raster_cut_t *cut)
+COPIED void draw_plane(bool colours, const raster_t *raster, const raster_shape_t *shape,
+                       uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *const *p = shape->p;
     const int32_t width = raster->screen->width;

@@ -40,8 +40,8 @@ static inline int32_t crossing_of(const side_t *side)
 }
 
 /* Draws a small triangle: in one pixel value, or with lines. */
-ROWS_COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
-                            uint16_t pixel, const raster_cut_t *cut)
+COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
+                       uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];

@@ -58,11 +58,9 @@ static inline uint16_t cut_at(const raster_cut_t *cut, uint32_t value)
  * for none: branching on that would be a seventh of what a triangle costs.
  */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
-#define ROWS_COPIED static inline __attribute__((always_inline))
 #define ROWS_DRAW(draw, raster, ...)                                                               \
     ((raster)->colours ? draw(true, raster, __VA_ARGS__) : draw(false, raster, __VA_ARGS__))
 #else
-#define ROWS_COPIED static
 #define ROWS_DRAW(draw, raster, ...) draw((raster)->colours, raster, __VA_ARGS__)
 #endif
 
