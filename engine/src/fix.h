@@ -36,7 +36,7 @@ static inline int32_t fix_abs(int32_t a)
 /* The size of a number, but that a negative one counts as one less: one instruction. */
 static inline uint32_t fix_size(int32_t a)
 {
-    return (uint32_t)(a ^ a >> 31);
+    return (uint32_t)(a ^ -(int32_t)(a < 0));
 }
 
 /* a - b, of two plan coordinates: they are unsigned, and on a small processor an int has 16 bits.

@@ -148,11 +148,11 @@ static inline bool relief_keeps(int32_t noise, int class, int32_t rise)
 }
 
 /* And is all noise of this scale? At most that it is, as RELIEF_HASH_MOST is below
- * 2^RELIEF_NOISE_SHIFT; rise ^ rise >> 31 is |rise| or one less, and its half at most one less.
+ * 2^RELIEF_NOISE_SHIFT; fix_size(rise) is |rise| or one less, and its half at most one less.
  */
 static inline bool relief_keeps_all(int32_t scale, int class, int32_t rise)
 {
-    return (scale + ((rise ^ rise >> 31) >> 1)) << 4 <= ((int32_t)31 << (class >> 2)) - 32;
+    return (scale + (int32_t)(fix_size(rise) >> 1)) << 4 <= ((int32_t)31 << (class >> 2)) - 32;
 }
 
 /* The corners of a triangle. */

@@ -51,6 +51,8 @@ def measure_board(board):
                                  [run.regions["shadows"] for run in runs])
     frames = [frame_regions(run) for run in runs]
     for setting in frames[0]:
+        if not all(setting in frame for frame in frames):
+            continue  # too much memory for some of the maps
         if board not in boards.DEVICES and setting.startswith("128x64"):
             continue  # the same to the instruction as on the device with this core
         for view in frames[0][setting]:
