@@ -295,7 +295,8 @@ yb_rule_t yb_edge_rule(const yb_map_t *map, const yb_load_t *load, yb_triangle_t
     const yb_index_t *corner = yb_map_triangle(map, triangle);
     yb_index_t a = corner[edge];
     yb_index_t b = corner[next3(edge)];
-    if (is_marked(load, 4 * (half_t)triangle + edge))
+    /* As is_marked, wherever the map has its triangles by now. */
+    if ((yb_map_across(map)[triangle] >> edge * ENTRY_BITS & ENTRY_MARK) != 0)
         return rule_of_marked(load, a < b ? a : b, a < b ? b : a);
     /* The way that a branch of a skeleton takes, its beginning included. */
     for (int k = 0; k < 2; k++) {

@@ -150,9 +150,19 @@ static void one_piece_of_memory_is_enough(void **state)
         static yb_map_t fresh;
         random_fitting_plan(&plan, &rng);
         const size_t count = plan_write(&plan, code);
-        assert_int_equal(yb_map_load(&piece.map, &other, code, count), YB_OK);
         assert_int_equal(yb_map_load(&fresh, &other, code, count), YB_OK);
+        assert_int_equal(yb_map_load(&piece.map, &other, code, count), YB_OK);
         assert_true(map_same(&piece.map, &fresh));
+        /* Which rule made an edge is known as long as the map is, wherever its triangles are. */
+        static yb_rule_t rule[YB_MAX_TRIANGLES][3];
+        for (yb_triangle_t t = 0; t < piece.map.triangle_count; t++)
+            for (int i = 0; i < 3; i++)
+                rule[t][i] = yb_edge_rule(&piece.map, &other, t, i);
+        placed = yb_frame_place(&piece.map, MOST, screen, &band);
+        memset(placed, 0x5a, (size_t)(piece.byte + MOST - (uint8_t *)placed));
+        for (yb_triangle_t t = 0; t < piece.map.triangle_count; t++)
+            for (int i = 0; i < 3; i++)
+                assert_int_equal(yb_edge_rule(&piece.map, &other, t, i), rule[t][i]);
     }
     print_message("bands of %d rows and more\n", least);
     /* As much as is promised for any map, and nothing for a screen without pixels. */
