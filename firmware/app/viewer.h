@@ -20,8 +20,7 @@
 #define YB_VIEWER_HEIGHT 64
 #define YB_VIEWER_PITCH (YB_VIEWER_WIDTH / 2)
 /* Memory for the rows that are drawn at once, beside what the map leaves. More are faster. With
- * memory for sixteen, maps of up to 170 vertices, as all of the gallery are, are drawn in one
- * piece.
+ * memory for sixteen, maps of up to 170 vertices are drawn in one piece: nearly all of the gallery.
  */
 #ifndef YB_VIEWER_BAND_BYTES
 #define YB_VIEWER_BAND_BYTES (16 * YB_VIEWER_PITCH)
