@@ -25,13 +25,13 @@ void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky)
     }
     const uint16_t swapped = pixels_swapped(sky);
     for (; at != end && ((uintptr_t)at & 2) != 0; at += 2)
-        PIXELS_COPY(at, &swapped, 2);
+        PIXELS_COPY(PIXELS_AT(at, 2), &swapped, 2);
     for (const uint32_t pair = swapped * (uint32_t)0x10001; end - at >= 16; at += 16) {
         for (int i = 0; i < 16; i += 4)
-            PIXELS_COPY(at + i, &pair, 4);
+            PIXELS_COPY(PIXELS_AT(at + i, 4), &pair, 4);
     }
     for (; at != end; at += 2)
-        PIXELS_COPY(at, &swapped, 2);
+        PIXELS_COPY(PIXELS_AT(at, 2), &swapped, 2);
 }
 
 /* The darkest grey that is drawn, 1, lights none, the lightest, 15, all. */

@@ -49,32 +49,32 @@ static inline uint16_t pixels_swapped(uint16_t colour)
 #endif
 }
 
-/* Copies a pixel with colours, or a pair of them that lies at a multiple of four: one instruction,
- * where the compiler is told.
+/* A pixel with colours, or a pair of them that lies at a multiple of four, is read or written in
+ * one instruction, where the compiler is told so.
  */
 #if defined(__GNUC__)
-#define PIXELS_COPY(to, from, bytes)                                                               \
-    __builtin_memcpy(__builtin_assume_aligned((to), (bytes)),                                      \
-                     __builtin_assume_aligned((from), (bytes)), (bytes))
+#define PIXELS_AT(at, bytes) __builtin_assume_aligned((at), (bytes))
+#define PIXELS_COPY __builtin_memcpy
 #else
-#define PIXELS_COPY(to, from, bytes) memcpy((to), (from), (bytes))
+#define PIXELS_AT(at, bytes) (at)
+#define PIXELS_COPY memcpy
 #endif
 
 static inline void pixels_put_colour(uint8_t *at, uint16_t swapped)
 {
     uint16_t there;
-    PIXELS_COPY(&there, at, 2);
+    PIXELS_COPY(&there, PIXELS_AT(at, 2), 2);
     if ((there & pixels_swapped(PIXELS_DRAWN)) == 0)
-        PIXELS_COPY(at, &swapped, 2);
+        PIXELS_COPY(PIXELS_AT(at, 2), &swapped, 2);
 }
 
 static inline void pixels_put_pair(uint8_t *at, uint32_t pair)
 {
     const uint32_t drawn = pixels_swapped(PIXELS_DRAWN) * (uint32_t)0x10001;
     uint32_t there;
-    PIXELS_COPY(&there, at, 4);
+    PIXELS_COPY(&there, PIXELS_AT(at, 4), 4);
     if ((there & drawn) == 0) {
-        PIXELS_COPY(at, &pair, 4);
+        PIXELS_COPY(PIXELS_AT(at, 4), &pair, 4);
     } else if ((there & drawn) != drawn) {
         pixels_put_colour(at, (uint16_t)pair);
         pixels_put_colour(at + 2, (uint16_t)pair);

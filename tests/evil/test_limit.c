@@ -78,7 +78,7 @@ static void the_structs_are_as_small_as_promised(void **state)
     (void)state;
     print_message("64 vertices: map %d, load %d, frame %d bytes\n", (int)sizeof map,
                   (int)sizeof load, (int)sizeof(yb_frame_t));
-    assert_true(sizeof map < 64 * 18 + 64 * 4 + 100);
+    assert_true(sizeof map < 64 * 26 + 64 * 4 + 100);
 }
 
 int main(void)

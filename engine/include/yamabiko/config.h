@@ -5,7 +5,7 @@
 #define YAMABIKO_CONFIG_H
 
 /* Most vertices of a mesh. 255 keeps indices in 8 bits: a map then takes 12 bytes a vertex and
- * 6 a vertex for triangles. A code of the paper profile never asks for more than 255; more, up to
+ * 14 a vertex for triangles. A code of the paper profile never asks for more than 255; more, up to
  * 65535, are for maps that are built from contours in full detail (yb_map_build). The surface of a
  * code is the same in every build that it fits.
  */
