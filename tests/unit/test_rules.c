@@ -106,6 +106,7 @@ static void shuffle(rng_t *rng)
     static yb_load_t had;
     was = map;
     had = load;
+    had.across = was.across;
     static int place[YB_MAX_TRIANGLES];
     static int turned[YB_MAX_TRIANGLES];
     int region[YB_MAX_CONTOURS + 1];
