@@ -9,24 +9,10 @@
 
 #include <yamabiko/rom.h>
 
+#include "compiler.h"
+
 /* `>>` of a negative number rounds down on every compiler we know; C11 leaves it to them. */
 _Static_assert((-3 >> 1) == -2, "arithmetic right shift");
-
-/* A function that stays one: inlined, it would take registers from what its callers keep in them,
- * and small processors have few.
- */
-#ifdef __GNUC__
-#define APART static __attribute__((noinline))
-#else
-#define APART static
-#endif
-
-/* A function that is in line wherever it is called, where speed counts more than size. */
-#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
-#define COPIED static inline __attribute__((always_inline))
-#else
-#define COPIED static inline
-#endif
 
 static inline int32_t fix_abs(int32_t a)
 {

@@ -9,13 +9,6 @@
 #include "relief.h"
 #include "shade.h"
 
-/* Apart from what is done to nearly all edges and midpoints, which wants the registers. */
-#if defined(__GNUC__)
-#define APART static __attribute__((noinline))
-#else
-#define APART static
-#endif
-
 /* --- Edges ------------------------------------------------------------------------------------ */
 
 static inline int32_t bulge_of(const yb_point_t *a, const yb_point_t *b)

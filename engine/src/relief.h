@@ -2,7 +2,7 @@
  *
  * Whether an edge can be split, where its midpoint lies and how high: all of it follows from the
  * edge's two ends and the map's constants, and is bit-equal for (a, b) and (b, a). So two triangles
- * that share an edge always agree, and no adjacency is stored.
+ * that share an edge always agree, and neither asks for the other.
  */
 #ifndef YB_RELIEF_H
 #define YB_RELIEF_H
@@ -80,21 +80,10 @@ static inline uint32_t relief_salt(uint8_t seed)
     return (seed + (uint32_t)1) * 0x9e3779b9u;
 }
 
-/* A number that nothing is known of: else gcc makes the second factor below from the first one, in
- * three instructions where it can load it in one.
- */
-static inline uint32_t relief_held(uint32_t a)
-{
-#if defined(__GNUC__) && defined(__thumb2__)
-    __asm__("" : "+r"(a));
-#endif
-    return a;
-}
-
 static inline int32_t relief_noise(uint32_t place, uint32_t salt)
 {
     uint32_t h = place + salt;
-    h = (h ^ h >> 16) * relief_held(0x7feb352du);
+    h = (h ^ h >> 16) * 0x7feb352du;
     h = (h ^ h >> 15) * 0x846ca68bu;
     h ^= h >> 16;
     h = (h & 0xff00ff) + (h >> 8 & 0xff00ff); /* two sums of two bytes */

@@ -13,13 +13,6 @@ enum {
     WATER_DIM = 4 /* and water, where there is no colour to tell it by */
 };
 
-/* What most triangles are, and what few of them need: some compilers lay out code by it. */
-#if defined(__GNUC__)
-#define USUAL(condition) __builtin_expect((condition), 1)
-#else
-#define USUAL(condition) (condition)
-#endif
-
 /* A direction. */
 typedef struct {
     int32_t x, y, z;
