@@ -155,6 +155,27 @@ bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_
 
 /* --- How far triangles may go ----------------------------------------------------------------- */
 
+/* How far the smooth surface rises or falls at the middle of an edge. */
+static inline int32_t bend_of(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    return fix_abs(relief_bulge((int32_t)b->gx_q11 - a->gx_q11, (int32_t)b->gy_q11 - a->gy_q11,
+                                fix_minus(a->x_q8, b->x_q8), fix_minus(a->y_q8, b->y_q8)));
+}
+
+/* A surface of the second degree bulges from its plane at most 4/3 of what it does on an edge; a
+ * line from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such lines at
+ * most one is split on.
+ */
+int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
+{
+    if (!map->smooth)
+        return 0;
+    const int32_t bulge =
+        fix_max(bend_of(corner[0], corner[1]),
+                fix_max(bend_of(corner[1], corner[2]), bend_of(corner[2], corner[0])));
+    return 2 * bulge + (bulge >> 1);
+}
+
 /* How far refinement can move a point of a triangle of which some edges are split. Each part of an
  * edge is of a class four lower and halved once less, and so is what is split inside the triangle:
  * a point moves by the noise of each class once. (relief_reach counts it twice.)
@@ -275,14 +296,6 @@ static inline int32_t spread(int32_t a, int32_t b, int32_t c)
     return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
 }
 
-/* How far the smooth surface rises or falls at the middle of an edge. */
-static inline int32_t bend_of(const yb_vertex_t *a, const yb_vertex_t *b)
-{
-    return fix_abs(relief_bulge((int32_t)b->gx_q11 - a->gx_q11, (int32_t)b->gy_q11 - a->gy_q11,
-                                fix_minus(a->x_q8, b->x_q8), fix_minus(a->y_q8, b->y_q8)));
-}
-
-/* As refine_bulge, and the noise. */
 COPIED reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near)
 {
     const yb_map_t *map = frame->map;
@@ -296,12 +309,8 @@ COPIED reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3
     if (reach.often == 0)
         return reach;
     const relief_bound_t bound = {0, relief_class(wide, high)};
-    reach.stray = 17 + (relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often) >> 1);
-    if (map->smooth) {
-        const int32_t bulge =
-            fix_max(bend_of(v[0], v[1]), fix_max(bend_of(v[1], v[2]), bend_of(v[2], v[0])));
-        reach.stray += 2 * bulge + (bulge >> 1);
-    }
+    reach.stray = refine_bulge(map, v) + 17 +
+                  (relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often) >> 1);
     return reach;
 }
 
@@ -311,26 +320,23 @@ static inline int32_t nearest_in(const box_t *box)
     return fix_min(box->near + box->near / 7 + 1, 65535);
 }
 
-/* The rows that a base triangle of which so much is known may touch, whatever it becomes. False: it
- * is not on the screen.
+/* The rows that a base triangle may touch whose points go so far. False: it is not on the screen.
  */
-COPIED bool find_bins(const yb_frame_t *frame, const refine_view_t *whole, box_t *box,
-                      const reach_t *reach, int32_t *first, int32_t *last)
+static bool find_rows(const refine_view_t *whole, const spare_t *spare, box_t *box, int32_t *first,
+                      int32_t *last)
 {
-    spare_t spare;
-    if (!find_part_spare(frame, reach->often, reach->stray, box->near, &spare))
-        return true;
-    widen_box(&spare, box);
+    widen_box(spare, box);
     *first = fix_clamp(box->top >> 4, 0, *last);
     *last = fix_clamp(box->bottom >> 4, 0, *last);
     return !box_misses(whole, box);
 }
 
-/* The same with the wall that stands below it, or where some of it has no spot or is under water.
+/* The same of one that has a wall below it, or of which some has no spot, may be under water, or
+ * goes too far for a box.
  */
-APART bool find_more_bins(const yb_frame_t *frame, const refine_view_t *whole,
-                          yb_triangle_t triangle, const yb_vertex_t *const v[3], int32_t *first,
-                          int32_t *last)
+APART bool find_odd_rows(const yb_frame_t *frame, const refine_view_t *whole,
+                         yb_triangle_t triangle, const yb_vertex_t *const v[3], int32_t *first,
+                         int32_t *last)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
     yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
@@ -349,7 +355,7 @@ APART bool find_more_bins(const yb_frame_t *frame, const refine_view_t *whole,
     reach.stray = stray_in_water(frame, p, reach.stray);
     spare_t spare;
     if (seen && find_part_spare(frame, reach.often, reach.stray, box.near, &spare))
-        return find_bins(frame, whole, &box, &reach, first, last);
+        return find_rows(whole, &spare, &box, first, last);
     return !misses_planes(frame, whole, p, count, reach.stray);
 }
 
@@ -368,13 +374,13 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     }
     int32_t first = 0;
     int32_t last = frame->screen.height - 1;
-    bool shown;
+    spare_t spare;
     if (plain) {
         const reach_t reach = whole_reach(frame, v, nearest_in(&box));
-        shown = find_bins(frame, whole, &box, &reach, &first, &last);
-    } else {
-        shown = find_more_bins(frame, whole, triangle, v, &first, &last);
+        plain = find_part_spare(frame, reach.often, reach.stray, box.near, &spare);
     }
+    const bool shown = plain ? find_rows(whole, &spare, &box, &first, &last)
+                             : find_odd_rows(frame, whole, triangle, v, &first, &last);
     if (!shown) {
         first = frame->screen.height - 1;
         last = 0;

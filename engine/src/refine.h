@@ -33,6 +33,15 @@ static inline yb_edge_t refine_half(yb_edge_t edge)
     return ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
 }
 
+/* Of the differences of an edge's ends: the lowest bit says whether it cannot be split, the next
+ * one whether its halves cannot, and so on.
+ */
+static inline uint32_t refine_parity(const yb_point_t *a, const yb_point_t *b)
+{
+    const uint32_t parity = a->place ^ b->place;
+    return parity | parity >> 16;
+}
+
 /* yb_spot_t.out: the sides of some rows of the screen that a point is beyond. */
 enum {
     REFINE_ABOVE = 1,
@@ -109,7 +118,7 @@ static inline bool refine_part_misses(const yb_frame_t *frame, const refine_view
 }
 
 /* How far the smooth surface may be from the plane of a base triangle. */
-int32_t refine_bulge(const yb_map_t *map, const yb_point_t *const p[3]);
+int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3]);
 
 /* A corner of a base triangle: vertex i of the map. */
 void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
@@ -132,6 +141,22 @@ static inline yb_edge_t refine_edges(const yb_part_t *part)
 static inline bool refine_splits(const yb_part_t *part)
 {
     return refine_edges(part) >= REFINE_ONCE;
+}
+
+/* Of a triangle that is to be split, the corner a from which of the edges that are split ab is the
+ * first.
+ */
+static inline int refine_first_corner(const yb_part_t *part)
+{
+    if (part->edge[0] < REFINE_ONCE)
+        return part->edge[1] < REFINE_ONCE ? 2 : 1;
+    return part->edge[1] < REFINE_ONCE && part->edge[2] >= REFINE_ONCE ? 2 : 0;
+}
+
+/* How far the eye would be from a side if it were half way to the corner. */
+static inline int32_t refine_half_way(const yb_part_t *part)
+{
+    return (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
 }
 
 /* Splits a triangle that is to be split: into the part that comes first, in its place, and what is

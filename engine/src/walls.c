@@ -25,7 +25,7 @@ static bool faces(const yb_frame_t *frame, yb_triangle_t triangle, int which)
     const yb_map_t *map = frame->map;
     const yb_index_t *corner = yb_map_triangle(map, triangle);
     const yb_vertex_t *a = &map->vertex[corner[which]];
-    const yb_vertex_t *b = &map->vertex[corner[which == 2 ? 0 : which + 1]];
+    const yb_vertex_t *b = &map->vertex[corner[next3(which)]];
     const int32_t *eye = frame->view.eye_q8;
     return is_before(a->x_q8, b->x_q8, map->east_q8, eye[0]) ||
            is_before(a->y_q8, b->y_q8, map->north_q8, eye[1]);
@@ -97,8 +97,11 @@ static bool wall_misses(const yb_frame_t *frame, const refine_view_t *view, cons
 /* Refines an edge on the frame, left to right: of the points where the parts to come end, and of
  * the edges to them, the last is the one in hand.
  */
-static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
+static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                      yb_index_t a, yb_index_t b)
 {
+    refine_corner(frame, view, a, &frame->root[0]);
+    refine_corner(frame, view, b, &frame->root[1]);
     yb_level_t *level = frame->level;
     const yb_level_t *last = level + YB_MAX_LEVELS - 1;
     yb_point_t left = frame->root[0];
@@ -110,8 +113,10 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
         .point = {&frame->root[0], &frame->root[1], &frame->root[1]},
         .edge = {first, 0, 0},
     };
+    const yb_vertex_t *const vertex = frame->map->vertex;
     if (first >= REFINE_ONCE)
-        part.bulge = refine_bulge(frame->map, part.point);
+        part.bulge = refine_bulge(
+            frame->map, (const yb_vertex_t *const[3]){&vertex[a], &vertex[b], &vertex[b]});
     const int32_t stray = refine_stray(frame, &part);
     level->rest.point[0] = &frame->root[1];
     level->rest.edge[0] = first;
@@ -161,9 +166,7 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
         for (int i = 0; i < 3; i++) {
             if (!faces(frame, t, i))
                 continue;
-            refine_corner(frame, view, corner[i], &frame->root[0]);
-            refine_corner(frame, view, corner[i == 2 ? 0 : i + 1], &frame->root[1]);
-            draw_edge(frame, view, raster);
+            draw_edge(frame, view, raster, corner[i], corner[next3(i)]);
         }
     }
 }

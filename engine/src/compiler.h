@@ -1,0 +1,28 @@
+/* What a compiler may be told. None of it changes what is computed: other compilers do without. */
+#ifndef YB_COMPILER_H
+#define YB_COMPILER_H
+
+/* A function that stays one: inlined, it would take registers from what its callers keep in them,
+ * and small processors have few.
+ */
+#if defined(__GNUC__)
+#define APART static __attribute__((noinline))
+#else
+#define APART static
+#endif
+
+/* A function that is in line wherever it is called, where speed counts more than size. */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define COPIED static inline __attribute__((always_inline))
+#else
+#define COPIED static inline
+#endif
+
+/* What holds for most triangles: code is laid out by it. */
+#if defined(__GNUC__)
+#define USUAL(condition) __builtin_expect((condition), 1)
+#else
+#define USUAL(condition) (condition)
+#endif
+
+#endif

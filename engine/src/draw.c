@@ -1,0 +1,183 @@
+/* Draws the base triangles of a frame as what refinement makes of them. */
+#include "clip.h"
+#include "mesh.h"
+#include "refine.h"
+#include "shade.h"
+
+/* What stays the same while base triangles are drawn; with raster NULL leaves are only counted. */
+typedef struct {
+    yb_frame_t *frame;
+    const refine_view_t *view;
+    const raster_t *raster;
+} walk_t;
+
+static void hand_out(const raster_t *raster, const yb_point_t *const p[3])
+{
+    yb_vertex_t corner[3];
+    for (int i = 0; i < 3; i++) {
+        corner[i].x_q8 = (uint16_t)p[i]->place;
+        corner[i].y_q8 = (uint16_t)(p[i]->place >> 16);
+        corner[i].z_q8 = p[i]->top_q8;
+        corner[i].gx_q11 = (int16_t)((int32_t)(p[i]->slope & 0xffff) - 32768);
+        corner[i].gy_q11 = (int16_t)((int32_t)(p[i]->slope >> 16) - 32768);
+    }
+    raster->each(raster->context, &corner[0], &corner[1], &corner[2]);
+}
+
+/* Draws a triangle that is not split any more and has a corner without a spot. */
+static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
+                         const yb_point_t *const p[3])
+{
+    /* Where corners with spots lie in view space is known less well. */
+    if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
+        refine_misses(frame, view, p, 3, 0))
+        return;
+    if (!clip_draw(frame, raster, p, shade_ground(frame, p).pixel))
+        return;
+    frame->stats.drawn++;
+    if (raster->band == NULL)
+        hand_out(raster, p);
+}
+
+/* A leaf: draws it, if some of it may be in the band. */
+static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
+{
+    const int beyond = a->spot.out & b->spot.out & c->spot.out;
+    const int some = a->spot.out | b->spot.out | c->spot.out;
+    if ((beyond & REFINE_SIDES) != 0)
+        return;
+    yb_frame_t *frame = walk->frame;
+    const raster_t *raster = walk->raster;
+    const yb_point_t *const p[3] = {a, b, c};
+    if ((some & REFINE_NOWHERE) != 0) {
+        draw_clipped(frame, walk->view, raster, p);
+        return;
+    }
+    raster_shape_t shape;
+    raster_look_t look = raster_front(&a->spot, &b->spot, &c->spot, &shape);
+    if (look == RASTER_NOTHING)
+        return;
+    frame->stats.drawn++;
+    if (raster->band == NULL) {
+        hand_out(raster, p);
+        return;
+    }
+    /* As raster_fill, by what is known of the corners already. */
+    if (look == RASTER_BETWEEN ||
+        ((some & (REFINE_ABOVE | REFINE_BELOW)) != 0 && !raster_clip(raster, &shape)))
+        return;
+    const shade_t shade = shade_ground(frame, p);
+    raster_cut_t cut;
+    const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
+    if (look == RASTER_SMALL && (some & (REFINE_LEFT | REFINE_RIGHT)) == 0)
+        raster_level(raster, &shape, shade.pixel, cuts ? &cut : NULL);
+    else
+        raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
+}
+
+/* A triangle of which one or two edges are split, once: as refine_split, and its parts in the order
+ * of refine_next, none of which needs a place on the stack. False: all three are, which is rare.
+ */
+APART bool draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *level)
+{
+    yb_frame_t *frame = walk->frame;
+    const refine_view_t *view = walk->view;
+    const int i = refine_first_corner(part);
+    const int j = next3(i);
+    const int k = next3(j);
+    const bool two = part->edge[j] >= REFINE_ONCE;
+    if (two && part->edge[k] >= REFINE_ONCE)
+        return false;
+    frame->stats.refined += two ? 3 : 2;
+    if (walk->raster == NULL)
+        return true;
+    const yb_point_t *const a = part->point[i];
+    const yb_point_t *const b = part->point[j];
+    const yb_point_t *const c = part->point[k];
+    yb_point_t *const m = &level[0].middle;
+    refine_middle(frame, view, a, b, part->edge[i], m);
+    const bool a_first = part->eye[i] > part->eye[j];
+    if (!two) {
+        if (a_first)
+            leaf(walk, c, a, m);
+        leaf(walk, b, c, m);
+        if (!a_first)
+            leaf(walk, c, a, m);
+        return true;
+    }
+    yb_point_t *const n = &level[1].middle;
+    refine_middle(frame, view, b, c, part->edge[j], n);
+    const bool b_first = part->eye[j] > refine_half_way(part);
+    if (b_first)
+        leaf(walk, m, b, n);
+    if (a_first)
+        leaf(walk, c, a, m);
+    leaf(walk, c, m, n);
+    if (!a_first)
+        leaf(walk, c, a, m);
+    if (!b_first)
+        leaf(walk, m, b, n);
+    return true;
+}
+
+/* Refines a base triangle and draws what it becomes. */
+static void draw_root(const walk_t *walk, yb_triangle_t triangle)
+{
+    yb_frame_t *frame = walk->frame;
+    yb_level_t *top = frame->level;
+    yb_level_t *from = top;
+    const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
+    yb_part_t root;
+    yb_part_t *part = &root;
+    /* What is counted is counted whole: a bound on leaves is on all that refinement asks for. */
+    if (!refine_root(frame, walk->view, triangle, part, walk->raster == NULL))
+        return;
+    for (;;) {
+        for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
+            if (refine_part_misses(frame, walk->view, part))
+                goto next;
+            if (top > last) {
+                frame->stats.depth_limited++;
+                break;
+            }
+            if (edges < 2 * REFINE_ONCE && draw_last(walk, part, top))
+                goto next;
+            if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
+                return; /* counted enough: too many */
+            from = top = refine_split(frame, walk->view, part, top);
+        }
+        frame->stats.refined++;
+        if (walk->raster != NULL)
+            leaf(walk, part->point[0], part->point[1], part->point[2]);
+    next:
+        from = refine_next(frame->level, from, part);
+        if (from == NULL)
+            return;
+        part = &from->rest;
+        top = refine_top(from);
+    }
+}
+
+void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster)
+{
+    const walk_t walk = {frame, view, raster};
+    const yb_triangle_t count = frame->map->triangle_count;
+    if (!frame->binned) {
+        for (yb_triangle_t i = 0; i < count; i++)
+            draw_root(&walk, frame->order[i]);
+        return;
+    }
+    const int first_bin = refine_bin_of(frame, raster->first_row);
+    const int last_bin = refine_bin_of(frame, raster->end_row - 1);
+    for (yb_triangle_t i = 0; i < count; i++) {
+        if (refine_touches(frame, frame->order[i], first_bin, last_bin))
+            draw_root(&walk, frame->order[i]);
+    }
+}
+
+void refine_count(yb_frame_t *frame, const refine_view_t *whole)
+{
+    const walk_t walk = {frame, whole, NULL};
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
+        draw_root(&walk, t);
+}
