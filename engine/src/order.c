@@ -4,22 +4,11 @@
 #include "mesh.h"
 #include "relief.h"
 
-/* yb_frame_t.order_for. Lines of sight that go round the eye may meet triangles in a circle, each
- * in front of the next; those that go ahead of it, or back, cannot, for then there is a last one.
- */
-enum {
-    FOR_NOTHING,
-    FOR_ALL,
-    FOR_AHEAD,
-    FOR_BACK
-};
-
-/* The eye is taken as where it is to 1/64 step. */
 void order_begin(yb_frame_t *frame)
 {
     frame->eye_x_q6 = frame->view.eye_q8[0] >> 2;
     frame->eye_y_q6 = frame->view.eye_q8[1] >> 2;
-    frame->order_for = FOR_NOTHING;
+    frame->order_for = ORDER_NONE;
 }
 
 /* How far the eye is to the left of the line from a place to another, times its length: below 0, to
@@ -77,7 +66,7 @@ static bool lies_there(const yb_frame_t *frame, int which, yb_index_t i)
     const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
     const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
     const int32_t ahead = (v->x_q8 / 4 - frame->eye_x_q6) * x + (v->y_q8 / 4 - frame->eye_y_q6) * y;
-    return which == FOR_AHEAD ? ahead > 0 : ahead < 0;
+    return which == ORDER_AHEAD ? ahead > 0 : ahead < 0;
 }
 
 /* What is known of a triangle while it is sorted: which of those beside it it may hide, a bit for
@@ -96,7 +85,7 @@ APART unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *co
     unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
         if ((across & NO_TRIANGLE) == NO_TRIANGLE ||
-            (which != FOR_ALL && !lies_there(frame, which, corner[i]) &&
+            (which != ORDER_ALL && !lies_there(frame, which, corner[i]) &&
              !lies_there(frame, which, corner[next3(i)])))
             continue;
         found += left[i] < 0 ? HIDDEN : left[i] > 0 ? 1u << i : 0;
@@ -144,14 +133,14 @@ static bool sort(yb_frame_t *frame, int which)
 static int row_way(const yb_frame_t *frame, int32_t row)
 {
     const int32_t off_q4 = (frame->screen.height - 2 * row - 1) * 8;
-    return frame->up_z * frame->focal_q4 > off_q4 * frame->depth_z ? FOR_AHEAD : FOR_BACK;
+    return frame->up_z * frame->focal_q4 > off_q4 * frame->depth_z ? ORDER_AHEAD : ORDER_BACK;
 }
 
 int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end)
 {
-    if (frame->order_for == FOR_NOTHING && sort(frame, FOR_ALL))
-        frame->order_for = FOR_ALL;
-    if (frame->order_for == FOR_ALL)
+    if (frame->order_for == ORDER_NONE && sort(frame, ORDER_ALL))
+        frame->order_for = ORDER_ALL;
+    if (frame->order_for == ORDER_ALL)
         return end;
     const int way = row_way(frame, row);
     if (frame->order_for != way) {

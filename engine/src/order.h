@@ -16,6 +16,18 @@
 
 #include <yamabiko/yamabiko.h>
 
+/* yb_frame_t.order_for: what frame->order is good for. Lines of sight that go round the eye may
+ * meet triangles in a circle, each in front of the next; those that go ahead of it, or back,
+ * cannot, for then there is a last one.
+ */
+enum {
+    ORDER_NONE,
+    ORDER_ALL,
+    ORDER_AHEAD,
+    ORDER_BACK
+};
+
+/* A frame whose camera has begun has no order yet. The eye is taken as where it is to 1/64 step. */
 void order_begin(yb_frame_t *frame);
 
 /* Has the base triangles in frame->order as some rows show them, and says up to which, after `row`

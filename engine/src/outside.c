@@ -322,8 +322,8 @@ static inline int32_t nearest_in(const box_t *box)
 
 /* The rows that a base triangle may touch whose points go so far. False: it is not on the screen.
  */
-static bool find_rows(const refine_view_t *whole, const spare_t *spare, box_t *box, int32_t *first,
-                      int32_t *last)
+static bool rows_of_box(const refine_view_t *whole, const spare_t *spare, box_t *box,
+                        int32_t *first, int32_t *last)
 {
     widen_box(spare, box);
     *first = fix_clamp(box->top >> 4, 0, *last);
@@ -334,9 +334,8 @@ static bool find_rows(const refine_view_t *whole, const spare_t *spare, box_t *b
 /* The same of one that has a wall below it, or of which some has no spot, may be under water, or
  * goes too far for a box.
  */
-APART bool find_odd_rows(const yb_frame_t *frame, const refine_view_t *whole,
-                         yb_triangle_t triangle, const yb_vertex_t *const v[3], int32_t *first,
-                         int32_t *last)
+APART bool rows_of_odd(const yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle,
+                       const yb_vertex_t *const v[3], int32_t *first, int32_t *last)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
     yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
@@ -355,7 +354,7 @@ APART bool find_odd_rows(const yb_frame_t *frame, const refine_view_t *whole,
     reach.stray = stray_in_water(frame, p, reach.stray);
     spare_t spare;
     if (seen && find_part_spare(frame, reach.often, reach.stray, box.near, &spare))
-        return find_rows(whole, &spare, &box, first, last);
+        return rows_of_box(whole, &spare, &box, first, last);
     return !misses_planes(frame, whole, p, count, reach.stray);
 }
 
@@ -379,8 +378,8 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
         const reach_t reach = whole_reach(frame, v, nearest_in(&box));
         plain = find_part_spare(frame, reach.often, reach.stray, box.near, &spare);
     }
-    const bool shown = plain ? find_rows(whole, &spare, &box, &first, &last)
-                             : find_odd_rows(frame, whole, triangle, v, &first, &last);
+    const bool shown = plain ? rows_of_box(whole, &spare, &box, &first, &last)
+                             : rows_of_odd(frame, whole, triangle, v, &first, &last);
     if (!shown) {
         first = frame->screen.height - 1;
         last = 0;

@@ -3,10 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera.h"
 #include "colour.h"
-#include "loaded_map.h"
 #include "plain_frame.h"
+#include "rays.h"
+
+#include "loaded_map.h" /* after relief.h, whose arguments have the name of its map */
 
 enum {
     WIDTH = 160,
@@ -38,12 +39,6 @@ typedef struct {
     int across, down;
     bool *met;
 } rays_t;
-
-static double determinant(const double a[3], const double b[3], const double c[3])
-{
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
 
 /* Where on the screen the part of a triangle beyond the near distance lies. */
 typedef struct {
@@ -83,31 +78,15 @@ static double within(double a, double low, double high)
     return fmin(fmax(a, low), high);
 }
 
-/* A corner in view space: where its spot says, if it has one. */
-static void see_corner(const yb_point_t *corner, double p[3])
-{
-    camera_point_t place;
-    camera_view(&frame, corner->place, corner->top_q8, &place);
-    p[0] = place.right;
-    p[1] = place.up;
-    p[2] = place.depth;
-    if (corner->spot.near == 0)
-        return;
-    p[0] = (corner->spot.x_q4 - frame.screen.width * 8) * p[2] / frame.focal_q4;
-    p[1] = (frame.screen.height * 8 - corner->spot.y_q4) * p[2] / frame.focal_q4;
-}
-
 /* Marks the rays that meet the front of a leaf beyond the near distance. */
 static void cast(void *context, const yb_point_t *const corner[3])
 {
     const rays_t *rays = context;
     double p[3][3];
-    for (int i = 0; i < 3; i++) {
-        see_corner(corner[i], p[i]);
-    }
-    double volume = determinant(p[0], p[1], p[2]);
-    if (volume <= 0)
-        return; /* right, up and depth are left-handed: the front is positive */
+    for (int i = 0; i < 3; i++)
+        ray_corner(&frame, corner[i], p[i]);
+    if (ray_determinant(p[0], p[1], p[2]) <= 0)
+        return;
     box_t box;
     find_box(p, &box);
     int x0 = (int)within((box.left - rays->left) / rays->pitch - 1, 0, rays->across);
@@ -116,15 +95,10 @@ static void cast(void *context, const yb_point_t *const corner[3])
     int y1 = (int)within((box.bottom - rays->top) / rays->pitch + 1, -1, rays->down - 1);
     for (int y = y0; y <= y1; y++) {
         for (int x = x0; x <= x1; x++) {
-            double ray[3] = {(rays->left + x * rays->pitch - CRACK_WIDTH / 2) * 16,
-                             (CRACK_HEIGHT / 2 - rays->top - y * rays->pitch) * 16, frame.focal_q4};
-            double a = determinant(ray, p[1], p[2]);
-            double b = determinant(p[0], ray, p[2]);
-            double c = determinant(p[0], p[1], ray);
-            if (a < 0 || b < 0 || c < 0)
-                continue;
-            double far = volume / (a + b + c) * frame.focal_q4;
-            if (far >= frame.near * 1.02 + 2)
+            bool met;
+            const double depth = ray_depth(&frame, p, rays->left + x * rays->pitch,
+                                           rays->top + y * rays->pitch, &met);
+            if (met && depth >= frame.near * 1.02 + 2)
                 rays->met[y * rays->across + x] = true;
         }
     }

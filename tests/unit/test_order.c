@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera.h"
 #include "clip.h"
 #include "mesh.h"
 #include "order.h"
 #include "pixels.h"
 #include "plain_frame.h"
 #include "raster.h"
+#include "rays.h"
 
 #include "loaded_map.h" /* after mesh.h, whose arguments have the name of its load */
 
@@ -32,40 +32,6 @@ typedef struct {
 static leaf_t leaves[MOST_LEAVES];
 static int leaf_count;
 
-static double determinant(const double a[3], const double b[3], const double c[3])
-{
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-/* A corner in view space: where its spot says, if it has one. */
-static void see_corner(const yb_point_t *corner, double p[3])
-{
-    camera_point_t place;
-    camera_view(&frame, corner->place, corner->top_q8, &place);
-    p[0] = place.right;
-    p[1] = place.up;
-    p[2] = place.depth;
-    if (corner->spot.near == 0)
-        return;
-    p[0] = (corner->spot.x_q4 - WIDTH * 8) * p[2] / frame.focal_q4;
-    p[1] = (HEIGHT * 8 - corner->spot.y_q4) * p[2] / frame.focal_q4;
-}
-
-/* The depth of a leaf's plane at a pixel's centre, or INFINITY where the ray does not meet it; met:
- * between its corners.
- */
-static double depth_at(const leaf_t *leaf, int x, int y, bool *met)
-{
-    const double ray[3] = {(x + 0.5 - WIDTH / 2) * 16, (HEIGHT / 2 - y - 0.5) * 16, frame.focal_q4};
-    const double volume = determinant(leaf->p[0], leaf->p[1], leaf->p[2]);
-    const double a = determinant(ray, leaf->p[1], leaf->p[2]);
-    const double b = determinant(leaf->p[0], ray, leaf->p[2]);
-    const double c = determinant(leaf->p[0], leaf->p[1], ray);
-    *met = volume > 0 && a >= 0 && b >= 0 && c >= 0;
-    return volume > 0 && a + b + c > 0 ? volume / (a + b + c) * frame.focal_q4 : (double)INFINITY;
-}
-
 /* --- Frames ----------------------------------------------------------------------------------- */
 
 /* A leaf's number, from 1 on, as the value of pixels: all bits but the one that tells. */
@@ -87,7 +53,7 @@ static void draw_number(void *context, const yb_point_t *const p[3])
     if (leaf_count == MOST_LEAVES)
         return; /* too many for their numbers: the view is not looked at */
     for (int i = 0; i < 3; i++)
-        see_corner(p[i], leaves[leaf_count].p[i]);
+        ray_corner(&frame, p[i], leaves[leaf_count].p[i]);
     const uint16_t value = value_of(++leaf_count);
     if (raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, value) == RASTER_BEYOND)
         (void)clip_draw(&frame, raster, p, value);
@@ -97,7 +63,7 @@ static void draw_number(void *context, const yb_point_t *const p[3])
 static void find_nearest(const raster_t *raster, double *nearest)
 {
     for (int i = 0; i < leaf_count; i++) {
-        const leaf_t *leaf = &leaves[i];
+        leaf_t *leaf = &leaves[i];
         double box[4] = {0, WIDTH - 1, raster->first_row, raster->end_row - 1};
         if (leaf->p[0][2] > 0 && leaf->p[1][2] > 0 && leaf->p[2][2] > 0) {
             double x[3];
@@ -114,7 +80,7 @@ static void find_nearest(const raster_t *raster, double *nearest)
         for (int y = (int)box[2]; y <= box[3]; y++) {
             for (int x = (int)box[0]; x <= box[1]; x++) {
                 bool met;
-                const double depth = depth_at(leaf, x, y, &met);
+                const double depth = ray_depth(&frame, leaf->p, x + 0.5, y + 0.5, &met);
                 if (met && depth >= frame.near && depth < nearest[y * WIDTH + x])
                     nearest[y * WIDTH + x] = depth;
             }
@@ -141,7 +107,7 @@ static void check_rows(const raster_t *raster, sum_t *sum)
             if (number == 0 || nearest[y * WIDTH + x] == (double)INFINITY)
                 continue;
             bool met;
-            const double depth = depth_at(&leaves[number - 1], x, y, &met);
+            const double depth = ray_depth(&frame, leaves[number - 1].p, x + 0.5, y + 0.5, &met);
             sum->pixels++;
             sum->wrong += depth > nearest[y * WIDTH + x] * (1 + 1. / 32) + 3;
         }
@@ -167,6 +133,17 @@ static void check_view(const yb_view_t *view, sum_t *sum)
     }
 }
 
+/* Any view of any map. */
+static void next_view(rng_t *rng, int round, yb_view_t *view)
+{
+    if (round % 8 == 0) {
+        plan_t plan;
+        random_fitting_plan(&plan, rng);
+        load_plan(&plan);
+    }
+    random_view(view, &map, rng);
+}
+
 static void the_nearest_is_drawn(void **state)
 {
     (void)state;
@@ -174,12 +151,7 @@ static void the_nearest_is_drawn(void **state)
     sum_t sum = {0, 0, 0};
     for (int round = 0; round < 450; round++) {
         yb_view_t view;
-        if (round % 8 == 0) {
-            plan_t plan;
-            random_fitting_plan(&plan, &rng);
-            load_plan(&plan);
-        }
-        random_view(&view, &map, &rng);
+        next_view(&rng, round, &view);
         view.edge_q4 = view.edge_q4 < 96 ? 96 : view.edge_q4;
         check_view(&view, &sum);
     }
@@ -276,16 +248,11 @@ static void each_comes_after_its_hiders(void **state)
     int circles = 0;
     for (int round = 0; round < 4000; round++) {
         yb_view_t view;
-        if (round % 8 == 0) {
-            plan_t plan;
-            random_fitting_plan(&plan, &rng);
-            load_plan(&plan);
-        }
-        random_view(&view, &map, &rng);
+        next_view(&rng, round, &view);
         const yb_screen_t screen = {WIDTH, HEIGHT, YB_GREY4};
         yb_frame_begin(&frame, &map, &view, &screen);
-        const bool all = order_rows(&frame, 0, HEIGHT) == HEIGHT;
-        circles += frame.order_for != 1;
+        (void)order_rows(&frame, 0, HEIGHT);
+        circles += frame.order_for != ORDER_ALL;
         static int rank[YB_MAX_TRIANGLES];
         for (int t = 0; t < map.triangle_count; t++)
             rank[t] = -1;
@@ -293,7 +260,7 @@ static void each_comes_after_its_hiders(void **state)
             assert_int_equal(rank[frame.order[i]], -1);
             rank[frame.order[i]] = i;
         }
-        if (!all || frame.order_for != 1)
+        if (frame.order_for != ORDER_ALL)
             continue;
         for (int t = 0; t < map.triangle_count; t++) {
             for (int i = 0; i < 3; i++) {

@@ -167,8 +167,7 @@ typedef struct {
     uint16_t noise[YB_LENGTH_CLASSES];
     uint16_t reach_q8[YB_LENGTH_CLASSES];
     yb_vertex_t vertex[YB_MAX_VERTICES];
-    yb_across_t
-        across[YB_MAX_TRIANGLES]; /* the triangles beside each: private, as yb_load_t left them */
+    yb_across_t across[YB_MAX_TRIANGLES]; /* what lies beside each: private */
     yb_index_t triangle[YB_MAX_TRIANGLES][3];
 } yb_map_t;
 
