@@ -15,8 +15,8 @@
  * Memory. The engine allocates nothing, keeps no globals, never recurses and uses no floating
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (6.9 KB with 255 vertices)
- *   yb_load_t   working memory of decoding: until YB_OK           (3.4 KB)
- *   yb_frame_t  working memory of drawing: one frame at a time    (5.4 KB)
+ *   yb_load_t   working memory of decoding: until YB_OK           (3.5 KB)
+ *   yb_frame_t  working memory of drawing: one frame at a time    (5.5 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM. What a map
  * leaves of its own makes bands taller: yb_frame_place.
  *
@@ -634,7 +634,7 @@ typedef struct {
 /* One piece of memory for all: `bytes` bytes, a loaded map at the beginning. In what that does not
  * need this places a frame of it, and a band from the screen's top with as many rows as there is
  * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
- * 100 vertices takes 6.6 KB with its frame, each vertex more or less 38 bytes. Its triangles are
+ * 100 vertices takes 6.5 KB with its frame, each vertex more or less 38 bytes. Its triangles are
  * moved (yb_map_triangle); the frame is shorter than its type, and not to be copied. The caller may
  * lower band->rows. NULL: there is not room for one row, as there always is in sizeof(yb_map_t) +
  * sizeof(yb_frame_t), two pointers, and yb_band_row_bytes. Frame and band are the caller's until
