@@ -13,34 +13,7 @@
 
 #include "raster.h"
 
-/* An edge: its plan length in 1/128 step, foreshortened as the view does it, in the lower 16 bits;
- * its length class (yb_map_t.noise) and 4 in the next 8; how often it is to be halved in the upper
- * 8, or REFINE_AGAIN.
- */
-#define REFINE_ONCE ((yb_edge_t)1 << 24)
-#define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
-
-static inline int refine_class(yb_edge_t edge)
-{
-    return (int)(edge >> 16 & 0xff) - 4;
-}
-
-/* Either half of an edge that is split, to be asked anew if that is REFINE_AGAIN. Its class is its
- * own only if it can be split on.
- */
-static inline yb_edge_t refine_half(yb_edge_t edge)
-{
-    return ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
-}
-
-/* Of the differences of an edge's ends: the lowest bit says whether it cannot be split, the next
- * one whether its halves cannot, and so on.
- */
-static inline uint32_t refine_parity(const yb_point_t *a, const yb_point_t *b)
-{
-    const uint32_t parity = a->place ^ b->place;
-    return parity | parity >> 16;
-}
+/* --- Views: outside.c ------------------------------------------------------------------------- */
 
 /* yb_spot_t.out: the sides of some rows of the screen that a point is beyond. */
 enum {
@@ -74,6 +47,37 @@ typedef struct {
 /* The rows from first_row up to end_row. */
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view);
 
+/* --- Edges and base triangles: edges.c -------------------------------------------------------- */
+
+/* An edge: its plan length in 1/128 step, foreshortened as the view does it, in the lower 16 bits;
+ * its length class (yb_map_t.noise) and 4 in the next 8; how often it is to be halved in the upper
+ * 8, or REFINE_AGAIN.
+ */
+#define REFINE_ONCE ((yb_edge_t)1 << 24)
+#define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
+
+static inline int refine_class(yb_edge_t edge)
+{
+    return (int)(edge >> 16 & 0xff) - 4;
+}
+
+/* Either half of an edge that is split, to be asked anew if that is REFINE_AGAIN. Its class is its
+ * own only if it can be split on.
+ */
+static inline yb_edge_t refine_half(yb_edge_t edge)
+{
+    return ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
+}
+
+/* Of the differences of an edge's ends: the lowest bit says whether it cannot be split, the next
+ * one whether its halves cannot, and so on.
+ */
+static inline uint32_t refine_parity(const yb_point_t *a, const yb_point_t *b)
+{
+    const uint32_t parity = a->place ^ b->place;
+    return parity | parity >> 16;
+}
+
 /* An edge that is no half of another one. */
 yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b);
 
@@ -84,6 +88,18 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
 /* The midpoint of an edge that is split: its place, and where it is seen. */
 void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *a,
                    const yb_point_t *b, yb_edge_t edge, yb_point_t *middle);
+
+/* A corner of a base triangle: vertex i of the map. */
+void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
+                   yb_point_t *point);
+
+/* A base triangle, with its corners in frame->root. False: it is out of sight, as most are that lie
+ * behind the eye, and no more is known of it; `all`: it is not asked whether it is.
+ */
+bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part, bool all);
+
+/* --- What is in sight: outside.c -------------------------------------------------------------- */
 
 enum {
     REFINE_POINTS = 6
@@ -120,15 +136,27 @@ static inline bool refine_part_misses(const yb_frame_t *frame, const refine_view
 /* How far the smooth surface may be from the plane of a base triangle. */
 int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3]);
 
-/* A corner of a base triangle: vertex i of the map. */
-void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
-                   yb_point_t *point);
-
-/* A base triangle, with its corners in frame->root. False: it is out of sight, as most are that lie
- * behind the eye, and no more is known of it; `all`: it is not asked whether it is.
+/* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is
+ * all rows.
  */
-bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part, bool all);
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle);
+
+static inline int refine_bin_of(const yb_frame_t *frame, int32_t row)
+{
+    return (int)(row >> frame->row_shift);
+}
+
+/* May a base triangle touch some bins of rows? One that is not on the screen has its last bin
+ * before the first.
+ */
+static inline bool refine_touches(const yb_frame_t *frame, yb_triangle_t triangle, int first_bin,
+                                  int last_bin)
+{
+    const int bins = frame->bins[triangle];
+    return bins >> 4 <= last_bin && (bins & 15) >= first_bin;
+}
+
+/* --- Splitting: refine.c ---------------------------------------------------------------------- */
 
 /* REFINE_ONCE or more if one of a triangle's edges is split; below twice that, none of its parts
  * is.
@@ -188,25 +216,7 @@ static inline yb_level_t *refine_top(yb_level_t *level)
     return level + (level->rest.point[2] == &level[1].middle ? 2 : 1);
 }
 
-/* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is
- * all rows.
- */
-void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle);
-
-static inline int refine_bin_of(const yb_frame_t *frame, int32_t row)
-{
-    return (int)(row >> frame->row_shift);
-}
-
-/* May a base triangle touch some bins of rows? One that is not on the screen has its last bin
- * before the first.
- */
-static inline bool refine_touches(const yb_frame_t *frame, yb_triangle_t triangle, int first_bin,
-                                  int last_bin)
-{
-    const int bins = frame->bins[triangle];
-    return bins >> 4 <= last_bin && (bins & 15) >= first_bin;
-}
+/* --- Drawing: draw.c, walls.c ----------------------------------------------------------------- */
 
 /* Refines the base triangles that may touch the rows of a raster, in the frame's order, and draws
  * what they become.
