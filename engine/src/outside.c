@@ -176,6 +176,11 @@ int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
     return 2 * bulge + (bulge >> 1);
 }
 
+/* Rounding moves a point by one unit of height more at each level that it is split by. */
+enum {
+    MOST_LEVELS = 16
+};
+
 /* How far refinement can move a point of a triangle of which some edges are split. Each part of an
  * edge is of a class four lower and halved once less, and so is what is split inside the triangle:
  * a point moves by the noise of each class once. (relief_reach counts it twice.)
@@ -190,12 +195,12 @@ static inline int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *pa
         longest = class > longest ? class : longest;
     }
     int class = refine_class(longest);
-    int32_t stray = part->bulge + 16; /* rounding of 16 levels adds at most as many units */
-    if (often < 2 * REFINE_ONCE)
-        return stray + (map->noise[class] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT) + 1;
-    int count = (int)(often >> 24); /* or more */
+    const int32_t levels = fix_min((int32_t)(often >> 24), MOST_LEVELS); /* or more */
+    const int32_t stray = part->bulge + levels + 1;
+    if (levels < 2)
+        return stray + (map->noise[class] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT);
     const relief_bound_t bound = {0, class};
-    return stray + (relief_reach(map, &bound, class + 4 - 4 * count) >> 1) + 1;
+    return stray + (relief_reach(map, &bound, class + 4 - 4 * (int)levels) >> 1);
 }
 
 /* What of a triangle strays so far in height, when some of it may be in the water: what is above
@@ -238,7 +243,7 @@ static inline bool find_part_spare(const yb_frame_t *frame, int often, int32_t s
 {
     if (stray >= 1 << 14 || stray * near > frame->most_bend)
         return find_spare(frame, stray, near, spare);
-    int32_t levels = fix_min(often, 16) + 1;
+    int32_t levels = fix_min(often, MOST_LEVELS) + 1;
     spare->x = levels;
     spare->y = (((stray * near >> 10) + levels) * frame->lift >> frame->lift_shift) + levels;
     return true;
@@ -309,7 +314,7 @@ COPIED reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3
     if (reach.often == 0)
         return reach;
     const relief_bound_t bound = {0, relief_class(wide, high)};
-    reach.stray = refine_bulge(map, v) + 17 +
+    reach.stray = refine_bulge(map, v) + fix_min(reach.often, MOST_LEVELS) + 1 +
                   (relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often) >> 1);
     return reach;
 }
