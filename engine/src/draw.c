@@ -1,10 +1,11 @@
 /* Draws the base triangles of a frame as what refinement makes of them. */
 #include "clip.h"
+#include "fix.h"
 #include "mesh.h"
 #include "refine.h"
 #include "shade.h"
 
-/* What stays the same while base triangles are drawn; with raster NULL leaves are only counted. */
+/* What stays the same while base triangles are drawn. */
 typedef struct {
     yb_frame_t *frame;
     const refine_view_t *view;
@@ -89,8 +90,6 @@ APART bool draw_last(const walk_t *walk, const yb_part_t *part, yb_level_t *leve
     if (two && part->edge[k] >= REFINE_ONCE)
         return false;
     frame->stats.refined += two ? 3 : 2;
-    if (walk->raster == NULL)
-        return true;
     const yb_point_t *const a = part->point[i];
     const yb_point_t *const b = part->point[j];
     const yb_point_t *const c = part->point[k];
@@ -129,8 +128,7 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t root;
     yb_part_t *part = &root;
-    /* What is counted is counted whole: a bound on leaves is on all that refinement asks for. */
-    if (!refine_root(frame, walk->view, triangle, part, walk->raster == NULL))
+    if (!refine_root(frame, walk->view, triangle, part, false))
         return;
     for (;;) {
         for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
@@ -142,13 +140,10 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
             }
             if (edges < 2 * REFINE_ONCE && draw_last(walk, part, top))
                 goto next;
-            if (walk->raster == NULL && frame->stats.refined > frame->view.max_leaves)
-                return; /* counted enough: too many */
             from = top = refine_split(frame, walk->view, part, top);
         }
         frame->stats.refined++;
-        if (walk->raster != NULL)
-            leaf(walk, part->point[0], part->point[1], part->point[2]);
+        leaf(walk, part->point[0], part->point[1], part->point[2]);
     next:
         from = refine_next(frame->level, from, part);
         if (from == NULL)
@@ -175,9 +170,79 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
     }
 }
 
-void refine_count(yb_frame_t *frame, const refine_view_t *whole)
+/* --- Counting --------------------------------------------------------------------------------- */
+
+enum {
+    MOST_HALVINGS = 12 /* of an edge, to be counted: 2^24 leaves */
+};
+
+static uint32_t power_of_3(int often)
 {
-    const walk_t walk = {frame, whole, NULL};
-    for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
-        draw_root(&walk, t);
+    uint32_t power = 1;
+    while (often-- > 0)
+        power *= 3;
+    return power;
+}
+
+/* The leaves of a triangle by how often its edges are halved, by the rules of refine_split. As long
+ * as all three are, there are four parts, and all are alike. Where two are, x times and, next to
+ * it, y times, two parts are halved x - 1 and y - 1 times, and one twice y - 1, which are 3^(y - 1)
+ * leaves. Where one is, there are two parts.
+ */
+static uint32_t leaves_of(const yb_part_t *part)
+{
+    int often[3];
+    for (int i = 0; i < 3; i++)
+        often[i] = fix_min((int)(part->edge[i] >> 24), MOST_HALVINGS);
+    const int least = fix_min(often[0], fix_min(often[1], often[2]));
+    int i = 2;
+    while (often[i] != least)
+        i--;
+    int x = often[next3(i)] - least;
+    int y = often[next3(next3(i))] - least;
+    uint32_t parts = (uint32_t)1 << 2 * least;
+    uint32_t leaves = 0;
+    for (; x > 0 && y > 0; x--, y--, parts *= 2)
+        leaves += parts * power_of_3(y - 1);
+    return leaves + (parts << (x + y));
+}
+
+/* Counts what a base triangle becomes, or somewhat more: what is in sight in part is counted whole
+ * if all its edges know how often they are halved.
+ */
+static uint32_t count_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                           uint64_t enough)
+{
+    yb_level_t *top = frame->level;
+    yb_level_t *from = top;
+    const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
+    yb_part_t root;
+    yb_part_t *part = &root;
+    uint32_t leaves = 0;
+    if (!refine_root(frame, view, triangle, part, false))
+        return 0;
+    for (;;) {
+        const yb_edge_t edges = refine_edges(part);
+        const bool seen = edges < REFINE_ONCE || !refine_part_misses(frame, view, part);
+        if (seen && top <= last && (edges >= REFINE_AGAIN || refine_is_sliver(frame, part))) {
+            from = top = refine_split(frame, view, part, top);
+            continue;
+        }
+        if (seen)
+            leaves += edges >= REFINE_AGAIN ? 1 : leaves_of(part);
+        from = refine_next(frame->level, from, part);
+        if (from == NULL || leaves >= enough)
+            return leaves;
+        part = &from->rest;
+        top = refine_top(from);
+    }
+}
+
+uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole)
+{
+    const uint64_t enough = (uint64_t)3 * frame->view.max_leaves;
+    uint32_t leaves = 0;
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count && leaves < enough; t++)
+        leaves += count_root(frame, whole, t, enough);
+    return leaves;
 }

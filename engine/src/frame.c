@@ -10,20 +10,33 @@
 #include "refine.h"
 #include "relief.h"
 
-/* Raises the threshold of refinement until the frame keeps to its bound. The count depends on the
- * view alone, so every band comes to the same threshold.
+static inline uint32_t sum_at_most(uint32_t a, uint32_t b)
+{
+    return a > UINT32_MAX - b ? UINT32_MAX : a + b;
+}
+
+/* Raises the threshold of refinement as far as the frame's bound wants it. Leaves are counted at
+ * four times the threshold, which is soon done. They go by a power of it between one, for slivers,
+ * and two: by an eighth at a time it comes back to what it was as long as there may be few enough.
+ * What counting finds to be too many raises it again. All this depends on the view alone, so every
+ * band comes to the same threshold.
  */
 static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
-    while (frame->view.max_leaves > 0) {
-        frame->stats.refined = 0;
-        refine_count(frame, whole);
-        if (frame->stats.refined <= frame->view.max_leaves || frame->longest == UINT32_MAX)
-            break;
-        uint32_t more = (frame->longest >> 2) + (frame->longest >> 3) + 1;
-        frame->longest = frame->longest > UINT32_MAX - more ? UINT32_MAX : frame->longest + more;
+    const uint32_t most = frame->view.max_leaves;
+    const uint32_t least = frame->longest;
+    if (most == 0)
+        return;
+    frame->longest = least > UINT32_MAX / 4 ? UINT32_MAX : 4 * least;
+    uint32_t leaves = refine_count(frame, whole);
+    for (; leaves <= most && frame->longest > least; leaves += 3 * leaves / 16 + 1) {
+        const uint32_t less = frame->longest - (frame->longest >> 3);
+        frame->longest = less < least ? least : less;
     }
-    memset(&frame->stats, 0, sizeof frame->stats);
+    while ((leaves = refine_count(frame, whole)) > most && frame->longest != UINT32_MAX) {
+        const uint32_t share_q7 = fix_share((uint64_t)(leaves - most) * 96, most, 192) + 4;
+        frame->longest = sum_at_most(frame->longest, (frame->longest >> 7) * share_q7 + 1);
+    }
 }
 
 /* Farthest that anything drawn is from the mesh in height: refined ground, walls, water. */
@@ -109,6 +122,7 @@ yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *scree
 void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *view,
                     const yb_screen_t *screen)
 {
+    memset(&frame->stats, 0, sizeof frame->stats);
     frame->map = map;
     frame->view = *view;
     frame->screen = *screen;

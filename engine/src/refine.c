@@ -32,10 +32,7 @@ static inline void halve(const yb_frame_t *frame, const yb_point_t *a, const yb_
     }
 }
 
-/* Is a triangle to become many and yet seen as little more than a line? What is inside it is left
- * whole: else a sliver that is to become n pieces along its sides would become n times n.
- */
-static bool is_sliver(const yb_frame_t *frame, const yb_part_t *part)
+bool refine_is_sliver(const yb_frame_t *frame, const yb_part_t *part)
 {
     const yb_spot_t *a = &part->point[0]->spot;
     const yb_spot_t *b = &part->point[1]->spot;
@@ -225,7 +222,7 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     turn(part, refine_first_corner(part));
     if (part->edge[1] < REFINE_ONCE)
         return split_one(frame, view, part, level);
-    const yb_edge_t inside = is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
+    const yb_edge_t inside = refine_is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
     if (part->edge[2] < REFINE_ONCE)
         return split_two(frame, view, part, level, inside);
     return split_three(frame, view, part, level, inside);

@@ -187,6 +187,11 @@ static inline int32_t refine_half_way(const yb_part_t *part)
     return (part->eye[0] + part->eye[1] + part->eye[2]) >> 1;
 }
 
+/* Is a triangle to become many and yet seen as little more than a line? What is inside it is left
+ * whole: else a sliver that is to become n pieces along its sides would become n times n.
+ */
+bool refine_is_sliver(const yb_frame_t *frame, const yb_part_t *part);
+
 /* Splits a triangle that is to be split: into the part that comes first, in its place, and what is
  * laid aside from `level` on, REFINE_PIECES at most. The answer is what follows it.
  */
@@ -223,9 +228,8 @@ static inline yb_level_t *refine_top(yb_level_t *level)
  */
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
 
-/* Counts the leaves of the whole screen in frame->stats.refined, up to more than the view's bound.
- */
-void refine_count(yb_frame_t *frame, const refine_view_t *whole);
+/* The leaves of the whole screen, or somewhat more. */
+uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole);
 
 /* Notes in frame->rim which base triangles have an edge on the frame whose wall shows its outside.
  */
