@@ -251,7 +251,7 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     else if ((looks & LOOK_COLOURS) != 0)
         return coloured(frame, corner, shade, light);
     else if ((looks & LOOK_HAZE) != 0)
-        pixel = colour_grey(frame, shade, nearest_of(corner));
+        pixel = colour_pixel(frame, 0, shade, nearest_of(corner));
     return (shade_t){pixel, (uint16_t)light};
 }
 
@@ -281,12 +281,11 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 /* What is darker on light ground and lighter on dark; a colour of its own where there are any. */
 static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
-    if ((frame->looks & LOOK_COLOURS) != 0)
-        return colour_pixel(frame, hue, shade, near);
     const int32_t contrast = frame->screen.format == YB_MONO ? SHADES : SHADES / 3;
-    shade =
-        shade > SHADES / 3 ? fix_max(shade - contrast, 0) : fix_min(shade + contrast, SHADES - 1);
-    return colour_grey(frame, shade, near);
+    if ((frame->looks & LOOK_COLOURS) == 0)
+        shade = shade > SHADES / 3 ? fix_max(shade - contrast, 0)
+                                   : fix_min(shade + contrast, SHADES - 1);
+    return colour_pixel(frame, hue, shade, near);
 }
 
 /* The shore, where a triangle reaches into the water: heights less than 2^16 from that have values
