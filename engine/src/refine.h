@@ -109,7 +109,7 @@ enum {
  * may move by `stray` in height?
  */
 bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
-                   int count, int32_t stray);
+                   int count, int often, int32_t stray);
 
 /* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
 int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);
