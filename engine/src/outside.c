@@ -5,19 +5,13 @@
 
 /* --- What lies outside the picture ------------------------------------------------------------ */
 
-/* A slope of the picture's pyramid, in 1/256, for a line `off` sixteenths of a pixel from the
- * middle: off / focal, rounded up. The picture lies within a slope of 2.
- */
-static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
-{
-    return off_q4 >= 0 ? (off_q4 * 256 + frame->focal_q4 - 1) / frame->focal_q4
-                       : -(-off_q4 * 256 / frame->focal_q4);
-}
-
 enum {
     SPARE_Q4 = 25 /* by which spots may be off where they should be */
 };
 
+/* Planes but the first go through the eye and a line `off` sixteenths of a pixel from the middle: a
+ * slope is off / focal in 1/256, rounded up. The picture lies within a slope of 2.
+ */
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
 {
     /* What meets no pixel's centre draws nothing. */
@@ -25,21 +19,22 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     view->top_q4 = first_row * 16 + 9;
     view->wide_q4 = (uint32_t)(frame->screen.width * 16 - 16);
     view->high_q4 = (uint32_t)((end_row - first_row) * 16 - 16);
-    int32_t wide = slope_q8(frame, frame->screen.width * 8 + SPARE_Q4);
-    int32_t middle = frame->screen.height * 8;
-    const refine_plane_t planes[REFINE_PLANES] = {
-        {.slope_q8 = 256, .near = frame->near},
-        {.right = 1, .slope_q8 = wide},
-        {.right = -1, .slope_q8 = wide},
-        {.up = -1, .slope_q8 = slope_q8(frame, middle - first_row * 16 + SPARE_Q4)},
-        {.up = 1, .slope_q8 = slope_q8(frame, end_row * 16 - middle + SPARE_Q4)},
-    };
-    int32_t up_q9 = (frame->up_z * frame->view.exaggerate_q8) >> 13;
-    int32_t deep_q9 = (frame->depth_z * frame->view.exaggerate_q8) >> 13;
+    const int32_t focal = frame->focal_q4;
+    const int32_t aside = frame->screen.width * 8 + SPARE_Q4;
+    const int32_t middle = frame->screen.height * 8;
+    const int32_t off_q4[REFINE_PLANES] = {focal, aside, aside, middle - first_row * 16 + SPARE_Q4,
+                                           end_row * 16 - middle + SPARE_Q4};
+    const int32_t scale = frame->view.exaggerate_q8;
     for (int i = 0; i < REFINE_PLANES; i++) {
         refine_plane_t *plane = &view->plane[i];
-        *plane = planes[i];
-        int32_t lift = plane->up * up_q9 + ((plane->slope_q8 * deep_q9) >> 8);
+        const int across = i == 0 ? 0 : 2 * (i & 1) - 1;
+        const int32_t slope = (off_q4[i] * 256 + (off_q4[i] > 0 ? focal - 1 : 0)) / focal;
+        plane->right = (int8_t)(i < 3 ? across : 0);
+        plane->up = (int8_t)(i < 3 ? 0 : -across);
+        plane->slope_q8 = slope;
+        plane->near = i == 0 ? frame->near : 0;
+        const int32_t lift =
+            plane->up * (frame->up_z * scale >> 13) + (slope * (frame->depth_z * scale >> 13) >> 8);
         plane->lift_q9 = (fix_abs(lift) >> frame->eye_shift) + 2;
     }
 }
@@ -89,7 +84,7 @@ static inline void widen_to(box_t *box, int32_t x_q4, int32_t y_q4, int32_t near
 }
 
 /* If not all of them have spots it has no `near`. */
-static void find_box(const yb_point_t *const *p, int count, box_t *box)
+COPIED void find_box(const yb_point_t *const *p, int count, box_t *box)
 {
     begin_box(box);
     int32_t least = INT32_MAX;
@@ -173,8 +168,13 @@ int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
  */
 COPIED int32_t stray_of(const yb_map_t *map, int32_t bulge, int class, int often)
 {
-    const relief_bound_t bound = {0, class};
-    return bulge + 17 + (relief_reach(map, &bound, class + 4 - 4 * often) >> 1);
+    int32_t reach = map->reach_q8[class];
+    const int rest = class - 4 * often;
+    if (reach == UINT16_MAX)
+        reach = RELIEF_MOST_REACH_Q8;
+    else if (rest >= 0)
+        reach -= map->reach_q8[rest];
+    return bulge + 17 + (reach >> 1);
 }
 
 /* Of a triangle of which some edges are split. */
@@ -245,7 +245,7 @@ typedef struct {
 } crowd_t;
 
 /* Is it not in the view? Its box is widened, or, where a pyramid must do, has no end. */
-static bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *crowd)
+COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *crowd)
 {
     box_t *box = &crowd->box;
     spare_t spare;
@@ -306,7 +306,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
  * more often than that line would be there. A refine_edge is at most 6.8 % longer than it should
  * be, and this line at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
  */
-static inline int32_t spread(int32_t a, int32_t b, int32_t c)
+APART int32_t spread(int32_t a, int32_t b, int32_t c)
 {
     return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
 }
@@ -343,7 +343,7 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
         v[i] = &frame->map->vertex[corner[i]];
         p[i] = &root[i];
         p[3 + i] = &root[3 + i];
-        camera_root(frame, corner[i], &root[i]);
+        refine_corner(frame, whole, corner[i], &root[i]);
         if (walls)
             camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
     }
