@@ -30,7 +30,7 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
 {
     /* Where corners with spots lie in view space is known less well. */
     if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
-        refine_misses(frame, view, p, 3, 0, 0))
+        refine_misses(frame, view, p, 3, 0))
         return;
     if (!clip_draw(frame, raster, p, shade_ground(frame, p).pixel))
         return;

@@ -229,7 +229,7 @@ static inline bool find_part_spare(const yb_frame_t *frame, int often, int32_t s
 {
     if (stray >= 1 << 14 || stray * near > frame->most_bend)
         return find_spare(frame, stray, near, spare);
-    int32_t levels = fix_min(often, 16) + 1;
+    int32_t levels = fix_min(often, REFINE_LEVELS) + 1;
     spare->x = levels;
     spare->y = (((stray * near >> 10) + levels) * frame->lift >> frame->lift_shift) + levels;
     return true;
@@ -258,8 +258,8 @@ COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *
     return box_misses(view, box);
 }
 
-bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
-                   int count, int often, int32_t stray)
+bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
+                          const yb_point_t *const *p, int count, int often, int32_t stray)
 {
     crowd_t crowd = {.p = p, .count = count, .often = often, .stray = stray};
     find_box(p, count, &crowd.box);
@@ -296,7 +296,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
 #else
     (void)beyond;
 #endif
-    return refine_misses(frame, view, p, 3, often, stray);
+    return refine_halved_misses(frame, view, p, 3, often, stray);
 }
 
 /* --- Rows ------------------------------------------------------------------------------------- */

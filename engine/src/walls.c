@@ -91,7 +91,7 @@ static bool wall_misses(const yb_frame_t *frame, const refine_view_t *view, cons
                         const post_t *b, int32_t stray)
 {
     const yb_point_t *const corner[4] = {b->top, a->top, &a->foot, &b->foot};
-    return refine_misses(frame, view, corner, 4, 16, stray);
+    return refine_misses(frame, view, corner, 4, stray);
 }
 
 /* Refines an edge on the frame, left to right: of the points where the parts to come end, and of
