@@ -288,10 +288,9 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     find_lengths(frame, whole);
     for (int i = 0; i < frame->map->vertex_count; i++) {
         const yb_vertex_t *v = &frame->map->vertex[i];
-        yb_point_t point = {
-            .place = relief_place(v),
-            .top_q8 = fix_max(v->z_q8, view->water_q8),
-        };
+        yb_point_t point;
+        point.place = relief_place(v);
+        point.top_q8 = fix_max(v->z_q8, view->water_q8);
         camera_see(frame, &point);
         frame->seen[i].x_q4 = point.spot.x_q4;
         frame->seen[i].y_q4 = point.spot.y_q4;
@@ -316,22 +315,19 @@ static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_
     };
 }
 
-static inline int32_t depth_of(const yb_frame_t *frame, way_t way)
-{
-    return (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
-}
-
-int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
-{
-    return depth_of(frame, way_to(frame, place, top_q8));
-}
-
 void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
 {
     const way_t way = way_to(frame, place, top_q8);
     to->right = (way.x * frame->right_x + way.y * frame->right_y) >> 14;
     to->up = (way.x * frame->up_x + way.y * frame->up_y + way.z * frame->up_z) >> 14;
-    to->depth = depth_of(frame, way);
+    to->depth = (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
+}
+
+int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
+{
+    camera_point_t at;
+    camera_view(frame, place, top_q8, &at);
+    return at.depth;
 }
 
 /* 2^29 over a depth that is shifted so: 2^14 to 2^15. */
