@@ -67,31 +67,21 @@ typedef struct {
     int32_t near; /* greatest 1/depth */
 } box_t;
 
-static inline void begin_box(box_t *box)
-{
-    box->near = 0;
-    box->left = box->top = INT32_MAX;
-    box->right = box->bottom = INT32_MIN;
-}
-
-static inline void widen_to(box_t *box, int32_t x_q4, int32_t y_q4, int32_t near)
-{
-    box->near = fix_max(box->near, near);
-    box->left = fix_min(box->left, x_q4);
-    box->right = fix_max(box->right, x_q4);
-    box->top = fix_min(box->top, y_q4);
-    box->bottom = fix_max(box->bottom, y_q4);
-}
-
 /* If not all of them have spots it has no `near`. */
 COPIED void find_box(const yb_point_t *const *p, int count, box_t *box)
 {
-    begin_box(box);
     int32_t least = INT32_MAX;
+    box->near = 0;
+    box->left = box->top = INT32_MAX;
+    box->right = box->bottom = INT32_MIN;
     for (int k = 0; k < count; k++) {
         const yb_spot_t *spot = &p[k]->spot;
-        widen_to(box, spot->x_q4, spot->y_q4, spot->near);
         least = fix_min(least, spot->near);
+        box->near = fix_max(box->near, spot->near);
+        box->left = fix_min(box->left, spot->x_q4);
+        box->right = fix_max(box->right, spot->x_q4);
+        box->top = fix_min(box->top, spot->y_q4);
+        box->bottom = fix_max(box->bottom, spot->y_q4);
     }
     if (least == 0)
         box->near = 0;
@@ -301,16 +291,16 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
-/* How far refinement can move a point of a base triangle, as limited_stray: no edge is longer than
- * its box in plan is across, nor any point nearer than `near`, a 1/depth, so that none is halved
- * more often than that line would be there. A refine_edge is at most 6.8 % longer than it should
- * be, and this line at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
- */
 APART int32_t spread(int32_t a, int32_t b, int32_t c)
 {
     return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
 }
 
+/* How far refinement can move a point of a base triangle, as limited_stray: no edge is longer than
+ * its box in plan is across, nor any point nearer than `near`, a 1/depth, so that none is halved
+ * more often than that line would be there. A refine_edge is at most 6.8 % longer than it should
+ * be, and this line at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
+ */
 COPIED void find_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near,
                        crowd_t *crowd)
 {

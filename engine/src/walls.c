@@ -97,8 +97,8 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     const int32_t stray = refine_stray(frame, &root);
     yb_part_t *part = &root;
     yb_level_t *top = frame->level;
+    yb_level_t *from = top;
     for (int i = 0;; i = 1) {
-        yb_level_t *from = top;
         for (;; i = 2) {
             wall_t wall = {part->point[next3(i)], part->point[i], &left, &right};
             const bool splits =
