@@ -129,6 +129,12 @@ static inline int32_t shifted(int32_t a, int shift)
 
 /* --- The frame's constants -------------------------------------------------------------------- */
 
+/* A part of a length, as a sine: Q14. Of no length, something else. */
+APART int32_t sine_of(int32_t part, int32_t length, int32_t otherwise)
+{
+    return length > 0 ? fix_scale(part, (int32_t)1 << 14, length) : otherwise;
+}
+
 /* Rows of R (paper, DIGEST 3), from the sines and cosines of the camera's elevation and of its
  * azimuth β (paper: eye seen from look), Q14.
  */
@@ -147,18 +153,10 @@ static void find_rows(yb_frame_t *frame)
     const int32_t flat = length_q15[1];
     const int32_t whole = length_q15[2];
     /* Straight down (or up) any β would do: the picture's top is where the view's azimuth says. */
-    int32_t sin_b = -yb_cos_q14(view->azimuth_bam);
-    int32_t cos_b = -yb_sin_q14(view->azimuth_bam);
-    if (flat > 0) {
-        sin_b = fix_scale(way_q15[1], (int32_t)1 << 14, flat);
-        cos_b = fix_scale(way_q15[0], (int32_t)1 << 14, flat);
-    }
-    int32_t sin_a = 0;
-    int32_t cos_a = 1 << 14;
-    if (whole > 0) {
-        sin_a = fix_scale(way_q15[2], (int32_t)1 << 14, whole);
-        cos_a = fix_scale(flat, (int32_t)1 << 14, whole);
-    }
+    const int32_t sin_b = sine_of(way_q15[1], flat, -yb_cos_q14(view->azimuth_bam));
+    const int32_t cos_b = sine_of(way_q15[0], flat, -yb_sin_q14(view->azimuth_bam));
+    const int32_t sin_a = sine_of(way_q15[2], whole, 0);
+    const int32_t cos_a = sine_of(flat, whole, 1 << 14);
     frame->right_x = -sin_b;
     frame->right_y = cos_b;
     frame->up_x = -((sin_a * cos_b) >> 14);
@@ -207,12 +205,18 @@ static void find_near(yb_frame_t *frame, int32_t stray, int32_t bend)
     frame->near_scaled = shifted(frame->near, shift);
 }
 
-/* A way on the screen, over a 1/depth that is up to an eighth nearer than it was: 8/7; with 20
- * fractional bits, rounded up. 34 bits and 20 more, less the 31 of `least`.
+/* A way on the screen, over a 1/depth: with 20 fractional bits, rounded down. 34 bits and 20 more,
+ * less the 31 of `least`.
  */
+APART uint32_t over(uint64_t way, uint32_t least)
+{
+    return (uint32_t)((way << 20) / least);
+}
+
+/* The same over a 1/depth that is up to an eighth nearer than it was, 8/7, and rounded up. */
 APART uint32_t sway_of(uint64_t way, uint32_t least)
 {
-    return (uint32_t)(((way * 8 / 7 << 20) + least - 1) / least);
+    return over(way * 8 / 7, least) + 1;
 }
 
 /* What a change of height does on the screen. `whole` is 1/depth times depth, in q8, and `bend`
@@ -230,13 +234,13 @@ static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
     const uint32_t least = (uint32_t)whole;
     int32_t lift = (frame->up_z * frame->view.exaggerate_q8) >> 8; /* 17 bits, as bend */
     const uint64_t up = (uint64_t)fix_wide(lift, frame->focal_q4);
-    uint32_t rise = (uint32_t)((up << 20) / least);
+    uint32_t rise = over(up, least);
     /* Up to a screen size off the screen. */
     const int32_t aside = (int32_t)frame->screen.width * 24;
     const int32_t along = (int32_t)frame->screen.height * 24;
     uint32_t sway_x = sway_of((uint64_t)fix_wide((int32_t)bend, aside), least);
     uint32_t sway_y = sway_of((uint64_t)fix_wide((int32_t)bend, along) + up, least);
-    for (; shift > 41 || rise >= 2047 || sway_x >= 2047 || sway_y >= 2047; shift--) {
+    for (; shift > 41 || sway_x >= 2047 || sway_y >= 2047; shift--) { /* rise is less */
         rise >>= 1;
         sway_x = (sway_x + 1) >> 1;
         sway_y = (sway_y + 1) >> 1;
@@ -288,10 +292,9 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     find_lengths(frame, whole);
     for (int i = 0; i < frame->map->vertex_count; i++) {
         const yb_vertex_t *v = &frame->map->vertex[i];
-        yb_point_t point = {
-            .place = relief_place(v),
-            .top_q8 = fix_max(v->z_q8, view->water_q8),
-        };
+        yb_point_t point;
+        point.place = relief_place(v);
+        point.top_q8 = fix_max(v->z_q8, view->water_q8);
         camera_see(frame, &point);
         frame->seen[i].x_q4 = point.spot.x_q4;
         frame->seen[i].y_q4 = point.spot.y_q4;
@@ -316,22 +319,19 @@ static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_
     };
 }
 
-static inline int32_t depth_of(const yb_frame_t *frame, way_t way)
-{
-    return (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
-}
-
-int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
-{
-    return depth_of(frame, way_to(frame, place, top_q8));
-}
-
 void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
 {
     const way_t way = way_to(frame, place, top_q8);
     to->right = (way.x * frame->right_x + way.y * frame->right_y) >> 14;
     to->up = (way.x * frame->up_x + way.y * frame->up_y + way.z * frame->up_z) >> 14;
-    to->depth = depth_of(frame, way);
+    to->depth = (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
+}
+
+int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
+{
+    camera_point_t at;
+    camera_view(frame, place, top_q8, &at);
+    return at.depth;
 }
 
 /* 2^29 over a depth that is shifted so: 2^14 to 2^15. */

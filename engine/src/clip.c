@@ -8,7 +8,7 @@
 enum {
     PLANES = 5,
     MOST_CORNERS = 3 + PLANES,
-    FINER = 4 /* corners are in quarters of the view's unit: one may be cut twice */
+    FINER = 2 /* bits by which corners are finer than the view's unit: one may be cut twice */
 };
 
 typedef struct {
@@ -28,7 +28,7 @@ typedef struct {
 static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int plane)
 {
     const camera_point_t *p = &corner->at;
-    int64_t inside = p->depth - FINER * frame->near;
+    int64_t inside = p->depth - (frame->near << FINER);
     if (plane > 0) {
         /* One screen size beyond each side: 3/2 from the middle. But never beyond |right|, |up| =
          * 2 depth. */
@@ -46,11 +46,9 @@ static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int pl
 /* A part of the way from one corner to another, maybe in the place of either. */
 static void cut(const corner_t *from, const corner_t *to, int32_t part_q20, corner_t *cut_at)
 {
-    const camera_point_t *a = &from->at;
-    const camera_point_t *b = &to->at;
-    cut_at->at.right = a->right + fix_product(b->right - a->right, part_q20, 20);
-    cut_at->at.up = a->up + fix_product(b->up - a->up, part_q20, 20);
-    cut_at->at.depth = a->depth + fix_product(b->depth - a->depth, part_q20, 20);
+    cut_at->at.right = from->at.right + fix_product(to->at.right - from->at.right, part_q20, 20);
+    cut_at->at.up = from->at.up + fix_product(to->at.up - from->at.up, part_q20, 20);
+    cut_at->at.depth = from->at.depth + fix_product(to->at.depth - from->at.depth, part_q20, 20);
     cut_at->spot = NULL;
 }
 
@@ -72,10 +70,20 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
         if (inside >= 0)
             corner[polygon->count++] = *p;
         /* From inside to outside, so that it does not matter which is p. */
+        /* From inside to outside, so that it does not matter which is p. */
         if ((inside ^ next) < 0) {
-            uint64_t part = (uint64_t)(next < 0 ? inside : next) << 20;
-            part /= (uint64_t)(next < 0 ? inside - next : next - inside);
-            cut(next < 0 ? p : q, next < 0 ? q : p, (int32_t)part, &corner[polygon->count++]);
+            int64_t most = next;
+            int64_t across = next - inside;
+            const corner_t *from = q;
+            const corner_t *to = p;
+            if (next < 0) {
+                most = inside;
+                across = -across;
+                from = p;
+                to = q;
+            }
+            cut(from, to, (int32_t)(((uint64_t)most << 20) / (uint64_t)across),
+                &corner[polygon->count++]);
         }
         inside = next;
     }
@@ -95,19 +103,20 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
     at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
     at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
     camera_project(frame, at, spot); /* but for its 1/depth, of a quarter as much */
-    spot->near = (uint16_t)camera_near(frame, at->depth / FINER);
+    spot->near = (uint16_t)camera_near(frame, at->depth >> FINER);
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
                uint16_t pixel)
 {
-    polygon_t polygon = {.count = 3};
+    polygon_t polygon;
+    polygon.count = 3;
     for (int i = 0; i < 3; i++) {
         corner_t *to = &polygon.corner[i];
         camera_view(frame, corner[i]->place, corner[i]->top_q8, &to->at);
-        to->at.right *= FINER;
-        to->at.up *= FINER;
-        to->at.depth *= FINER;
+        to->at.right *= 1 << FINER;
+        to->at.up *= 1 << FINER;
+        to->at.depth *= 1 << FINER;
         to->spot = corner[i]->spot.near > 0 ? &corner[i]->spot : NULL;
     }
     for (int plane = 0; plane < PLANES && polygon.count > 0; plane++)

@@ -60,34 +60,36 @@ void colour_begin(yb_frame_t *frame)
                              (view->shadow != NULL ? LOOK_SHADOWS : 0) | (odd ? LOOK_ODD : 0));
 }
 
-static uint16_t rgb565(uint32_t red, uint32_t green, uint32_t blue)
+/* Red and blue of a colour, 16 bits apart, so that one product serves both. */
+static inline uint32_t red_blue(const uint8_t *colour)
 {
-    return (uint16_t)((red >> 3) << 11 | (green >> 2) << 5 | blue >> 3);
+    return (uint32_t)yb_rom_u8(&colour[0]) << 16 | yb_rom_u8(&colour[2]);
 }
 
-/* From one part of a colour towards another, by a share of 256. */
-static inline uint32_t blend(int32_t from, int32_t to, int32_t share)
+/* A colour of which 16ths are left, blended towards another by a share of 256, and brighter by so
+ * much: half as much in green. There is room for that, but in red.
+ */
+COPIED uint16_t blend(const uint8_t *from, uint32_t of_16, const uint8_t *to, uint32_t share,
+                      uint32_t more)
 {
-    return (uint32_t)(from + ((to - from) * share >> 8));
+    uint32_t both = red_blue(from) * of_16 >> 4 & 0xff00ff;
+    uint32_t green = yb_rom_u8(&from[1]) * of_16 >> 4;
+    if (share > 0) {
+        both = (both * (256 - share) + red_blue(to) * share) >> 8;
+        green = (green * (256 - share) + yb_rom_u8(&to[1]) * share) >> 8;
+    }
+    const uint32_t red = (both >> 16) + more;
+    return (uint16_t)((red < 255 ? red >> 3 : 31) << 11 | (green + (more >> 1)) >> 2 << 5 |
+                      ((both & 0xff) + more) >> 3);
 }
 
 uint16_t colour_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
     if ((frame->looks & LOOK_COLOURS) == 0)
         return colour_grey(frame, shade, near);
-    const int32_t haze = 256 - colour_clear(frame, near);
     const uint8_t(*palette)[3] = hues[frame->view.palette];
-    const uint8_t *full = palette[hue];
-    const uint32_t share = (uint32_t)shade + 1; /* of 16 */
-    uint32_t red = yb_rom_u8(&full[0]) * share >> 4;
-    uint32_t green = yb_rom_u8(&full[1]) * share >> 4;
-    uint32_t blue = yb_rom_u8(&full[2]) * share >> 4;
-    if (haze > 0) {
-        red = blend((int32_t)red, yb_rom_u8(&palette[HUE_HAZE][0]), haze);
-        green = blend((int32_t)green, yb_rom_u8(&palette[HUE_HAZE][1]), haze);
-        blue = blend((int32_t)blue, yb_rom_u8(&palette[HUE_HAZE][2]), haze);
-    }
-    return rgb565(red, green, blue) | PIXELS_DRAWN;
+    return PIXELS_DRAWN | blend(palette[hue], (uint32_t)shade + 1, palette[HUE_HAZE],
+                                (uint32_t)(256 - colour_clear(frame, near)), 0);
 }
 
 uint16_t colour_sky(const yb_frame_t *frame, int32_t row)
@@ -98,15 +100,9 @@ uint16_t colour_sky(const yb_frame_t *frame, int32_t row)
      * the horizon. Rows lie within 2^15 of the middle, in 1/16 pixel. */
     int32_t off_q4 = (frame->screen.height - 2 * row - 1) * 8;
     int32_t rise_q14 = frame->depth_z + off_q4 * frame->up_z / frame->focal_q4;
-    int32_t high = fix_clamp((rise_q14 >> 6) + 128, 0, 256);
+    const uint32_t high = (uint32_t)fix_clamp((rise_q14 >> 6) + 128, 0, 256);
     const uint8_t(*palette)[3] = hues[frame->view.palette];
-    uint32_t mixed[3];
     /* Rows are rounded up by turns, so that the few bits of a colour make no bands. */
-    uint32_t spare = (uint32_t)((row & 1) * 2 + (row >> 1 & 1)) * 2;
-    for (int i = 0; i < 3; i++) {
-        mixed[i] = blend(yb_rom_u8(&palette[HUE_HAZE][i]), yb_rom_u8(&palette[HUE_SKY][i]), high);
-        mixed[i] += i == 1 ? spare >> 1 : spare;
-        mixed[i] = mixed[i] < 255 ? mixed[i] : 255;
-    }
-    return (uint16_t)(rgb565(mixed[0], mixed[1], mixed[2]) & ~PIXELS_DRAWN);
+    const uint32_t more = (uint32_t)((row & 1) * 2 + (row >> 1 & 1)) * 2;
+    return blend(palette[HUE_HAZE], 16, palette[HUE_SKY], high, more) & (uint16_t)~PIXELS_DRAWN;
 }

@@ -89,9 +89,7 @@ static void pack(yb_map_t *map)
 /* The first place from an offset on where a frame may begin. */
 static size_t aligned(const yb_map_t *map, size_t offset)
 {
-    const size_t to = _Alignof(yb_frame_t);
-    const size_t beyond = ((uintptr_t)map + offset) % to;
-    return beyond == 0 ? offset : offset + to - beyond;
+    return offset + (size_t)(0 - ((uintptr_t)map + offset)) % _Alignof(yb_frame_t);
 }
 
 yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *screen, yb_band_t *band)
@@ -137,9 +135,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->salt = relief_salt(map->seed);
     frame->even_water = view->shadow == NULL && view->haze_q8 <= 0 && !view->lamp;
     colour_begin(frame);
-    frame->row_shift = 0;
-    for (int32_t last = screen->height - 1; last > 15; last >>= 1)
-        frame->row_shift++;
+    frame->row_shift = (uint8_t)(fix_log2_floor((screen->height - (uint32_t)1) | 8) - 3);
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
     walls_begin(frame);
@@ -171,30 +167,32 @@ static void draw_rows(yb_frame_t *frame, const raster_t *raster)
     refine_draw(frame, &view, raster);
 }
 
-/* Rows up to one that wants its triangles in another order are drawn first. */
-static void draw_in_order(yb_frame_t *frame, const raster_t *raster)
+/* Rows up to one that wants its triangles in another order are drawn first. It leaves the raster
+ * without any.
+ */
+static void draw_in_order(yb_frame_t *frame, raster_t *raster)
 {
-    raster_t some = *raster;
-    for (int32_t y = raster->first_row; y < raster->end_row; y = some.end_row) {
-        some.first_row = y;
-        some.end_row = order_rows(frame, y, raster->end_row);
-        draw_rows(frame, &some);
+    const int32_t end = raster->end_row;
+    for (; raster->first_row < end; raster->first_row = raster->end_row) {
+        raster->end_row = order_rows(frame, raster->first_row, end);
+        draw_rows(frame, raster);
     }
 }
 
 void yb_frame_band(yb_frame_t *frame, const yb_band_t *band)
 {
-    const raster_t raster = pixels_open(&frame->screen, band);
-    for (int32_t y = raster.first_row; y < raster.end_row; y++)
+    raster_t raster = pixels_open(&frame->screen, band);
+    const int32_t first = raster.first_row;
+    for (int32_t y = first; y < raster.end_row; y++)
         pixels_clear(&raster, y, colour_sky(frame, y));
     draw_in_order(frame, &raster);
-    for (int32_t y = raster.first_row; y < raster.end_row; y++)
+    for (int32_t y = first; y < raster.end_row; y++)
         pixels_show(&raster, y);
 }
 
 void yb_frame_triangles(yb_frame_t *frame, yb_triangle_fn fn, void *context)
 {
-    const raster_t raster = {
+    raster_t raster = {
         .screen = &frame->screen,
         .end_row = frame->screen.height,
         .each = fn,

@@ -5,12 +5,13 @@
 #include "fix.h"
 #include "raster.h"
 
-/* The value of a height: times so much, modulo 2^32. That of a contour line is 0, and so is the
- * next one's.
+/* The value of a height: times so much, and so much more, modulo 2^32. That of a contour line is 0,
+ * and so is the next one's.
  */
 typedef struct {
     uint32_t scale; /* 2^15 to 2^27 */
-    int shift;      /* which leaves 16 bits of it */
+    uint32_t zero;
+    int shift; /* which leaves 16 bits of the scale */
 } lines_scale_t;
 
 /* In line where speed counts more than size. */
@@ -20,33 +21,36 @@ typedef struct {
 #define LINES_RECIPROCAL fix_reciprocal
 #endif
 
-/* Finds a cut's values from that of a triangle's first corner, and what the other two are higher
- * by, less than 2^16. It is counter-clockwise, and has an area. False: a line is a quarter of the
- * way from one to the next, or more; where there is one only, the triangle is a sliver.
+/* Finds a cut's values of a triangle whose heights differ by less than 2^16. It is
+ * counter-clockwise, and has an area. False: a line is a quarter of the way from one to the next,
+ * or more; where there is one only, the triangle is a sliver.
  *
  * Twice the area is below 2^27, and the determinants of rises and sides below 2^30. Of these
  * numbers the leading bits will do: lines are off by less than 2^-11 of where they begin.
  */
-COPIED bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c, int32_t rise_b,
-                       int32_t rise_c, uint32_t value, lines_scale_t by, raster_cut_t *cut)
+COPIED bool lines_find(const yb_point_t *const p[3], lines_scale_t by, raster_cut_t *cut)
 {
+    const yb_spot_t *a = &p[0]->spot;
+    const yb_spot_t *b = &p[1]->spot;
+    const yb_spot_t *c = &p[2]->spot;
     int32_t x1 = (int32_t)b->x_q4 - a->x_q4;
     int32_t y1 = (int32_t)b->y_q4 - a->y_q4;
     int32_t x2 = (int32_t)c->x_q4 - a->x_q4;
     int32_t y2 = (int32_t)c->y_q4 - a->y_q4;
     const uint32_t most = fix_size(x1) | fix_size(y1) | fix_size(x2) | fix_size(y2);
-    int power = -27;
+    int coarse = 0;
     if (most >= (uint32_t)1 << 13) {
-        const int coarse = fix_log2_floor(most) - 12;
+        coarse = fix_log2_floor(most) - 12;
         x1 >>= coarse;
         y1 >>= coarse;
         x2 >>= coarse;
         y2 >>= coarse;
-        power -= coarse;
     }
     const int32_t area = y1 * x2 - x1 * y2;
     if (area <= 0)
         return false;
+    const int32_t rise_b = p[1]->z_q8 - p[0]->z_q8;
+    const int32_t rise_c = p[2]->z_q8 - p[0]->z_q8;
     int32_t along_x = rise_c * y1 - rise_b * y2;
     int32_t along_y = rise_b * x2 - rise_c * x1;
     /* Over the area: 2^29 over 15 bits of it. The least of 15 bits times 16 is below 2^31. */
@@ -59,7 +63,7 @@ COPIED bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *
     along_x = (along_x >> down) * factor;
     along_y = (along_y >> down) * factor;
     steepest = (steepest >> down) * factor;
-    power += up + down + by.shift;
+    const int power = up + down + by.shift - coarse - 27;
     if (power > 0) {
         if (steepest >= ((int32_t)1 << 30) >> power)
             return false;
@@ -73,7 +77,7 @@ COPIED bool lines_find(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *
     }
     /* To the middle of the pixel (0, 0), and half a line on. Values far off the triangle may wrap.
      */
-    cut->at = value + ((uint32_t)steepest >> 1) +
+    cut->at = (uint32_t)p[0]->z_q8 * by.scale + by.zero + ((uint32_t)steepest >> 1) +
               (uint32_t)(along_x >> 4) * (uint32_t)(8 - a->x_q4) +
               (uint32_t)(along_y >> 4) * (uint32_t)(8 - a->y_q4);
     cut->along_x = along_x;

@@ -5,19 +5,13 @@
 
 /* --- What lies outside the picture ------------------------------------------------------------ */
 
-/* A slope of the picture's pyramid, in 1/256, for a line `off` sixteenths of a pixel from the
- * middle: off / focal, rounded up. The picture lies within a slope of 2.
- */
-static int32_t slope_q8(const yb_frame_t *frame, int32_t off_q4)
-{
-    return off_q4 >= 0 ? (off_q4 * 256 + frame->focal_q4 - 1) / frame->focal_q4
-                       : -(-off_q4 * 256 / frame->focal_q4);
-}
-
 enum {
     SPARE_Q4 = 25 /* by which spots may be off where they should be */
 };
 
+/* Planes but the first go through the eye and a line `off` sixteenths of a pixel from the middle: a
+ * slope is off / focal in 1/256, rounded up. The picture lies within a slope of 2.
+ */
 void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, refine_view_t *view)
 {
     /* What meets no pixel's centre draws nothing. */
@@ -25,21 +19,22 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     view->top_q4 = first_row * 16 + 9;
     view->wide_q4 = (uint32_t)(frame->screen.width * 16 - 16);
     view->high_q4 = (uint32_t)((end_row - first_row) * 16 - 16);
-    int32_t wide = slope_q8(frame, frame->screen.width * 8 + SPARE_Q4);
-    int32_t middle = frame->screen.height * 8;
-    const refine_plane_t planes[REFINE_PLANES] = {
-        {.slope_q8 = 256, .near = frame->near},
-        {.right = 1, .slope_q8 = wide},
-        {.right = -1, .slope_q8 = wide},
-        {.up = -1, .slope_q8 = slope_q8(frame, middle - first_row * 16 + SPARE_Q4)},
-        {.up = 1, .slope_q8 = slope_q8(frame, end_row * 16 - middle + SPARE_Q4)},
-    };
-    int32_t up_q9 = (frame->up_z * frame->view.exaggerate_q8) >> 13;
-    int32_t deep_q9 = (frame->depth_z * frame->view.exaggerate_q8) >> 13;
+    const int32_t focal = frame->focal_q4;
+    const int32_t aside = frame->screen.width * 8 + SPARE_Q4;
+    const int32_t middle = frame->screen.height * 8;
+    const int32_t off_q4[REFINE_PLANES] = {focal, aside, aside, middle - first_row * 16 + SPARE_Q4,
+                                           end_row * 16 - middle + SPARE_Q4};
+    const int32_t scale = frame->view.exaggerate_q8;
     for (int i = 0; i < REFINE_PLANES; i++) {
         refine_plane_t *plane = &view->plane[i];
-        *plane = planes[i];
-        int32_t lift = plane->up * up_q9 + ((plane->slope_q8 * deep_q9) >> 8);
+        const int across = i == 0 ? 0 : 2 * (i & 1) - 1;
+        const int32_t slope = (off_q4[i] * 256 + (off_q4[i] > 0 ? focal - 1 : 0)) / focal;
+        plane->right = (int8_t)(i < 3 ? across : 0);
+        plane->up = (int8_t)(i < 3 ? 0 : -across);
+        plane->slope_q8 = slope;
+        plane->near = i == 0 ? frame->near : 0;
+        const int32_t lift =
+            plane->up * (frame->up_z * scale >> 13) + (slope * (frame->depth_z * scale >> 13) >> 8);
         plane->lift_q9 = (fix_abs(lift) >> frame->eye_shift) + 2;
     }
 }
@@ -72,33 +67,24 @@ typedef struct {
     int32_t near; /* greatest 1/depth */
 } box_t;
 
-static inline void begin_box(box_t *box)
+/* If not all of them have spots it has no `near`. */
+COPIED void find_box(const yb_point_t *const *p, int count, box_t *box)
 {
+    int32_t least = INT32_MAX;
     box->near = 0;
     box->left = box->top = INT32_MAX;
     box->right = box->bottom = INT32_MIN;
-}
-
-static inline void widen_to(box_t *box, int32_t x_q4, int32_t y_q4, int32_t near)
-{
-    box->near = fix_max(box->near, near);
-    box->left = fix_min(box->left, x_q4);
-    box->right = fix_max(box->right, x_q4);
-    box->top = fix_min(box->top, y_q4);
-    box->bottom = fix_max(box->bottom, y_q4);
-}
-
-/* False: not all of them have spots. */
-static bool find_box(const yb_point_t *const *p, int count, box_t *box)
-{
-    begin_box(box);
     for (int k = 0; k < count; k++) {
         const yb_spot_t *spot = &p[k]->spot;
-        if (spot->near == 0)
-            return false;
-        widen_to(box, spot->x_q4, spot->y_q4, spot->near);
+        least = fix_min(least, spot->near);
+        box->near = fix_max(box->near, spot->near);
+        box->left = fix_min(box->left, spot->x_q4);
+        box->right = fix_max(box->right, spot->x_q4);
+        box->top = fix_min(box->top, spot->y_q4);
+        box->bottom = fix_max(box->bottom, spot->y_q4);
     }
-    return true;
+    if (least == 0)
+        box->near = 0;
 }
 
 /* How far on the screen points of up to 1/depth `near` go that move by `stray` in height. */
@@ -142,17 +128,6 @@ static inline bool box_misses(const refine_view_t *view, const box_t *box)
            box->left > right_of(view);
 }
 
-bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
-                   int count, int32_t stray)
-{
-    box_t box;
-    spare_t spare;
-    if (!find_box(p, count, &box) || !find_spare(frame, stray, box.near, &spare))
-        return misses_planes(frame, view, p, count, stray);
-    widen_box(&spare, &box);
-    return box_misses(view, &box);
-}
-
 /* --- How far triangles may go ----------------------------------------------------------------- */
 
 /* How far the smooth surface rises or falls at the middle of an edge. */
@@ -176,31 +151,32 @@ int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
     return 2 * bulge + (bulge >> 1);
 }
 
-/* Rounding moves a point by one unit of height more at each level that it is split by. */
-enum {
-    MOST_LEVELS = 16
-};
-
-/* How far refinement can move a point of a triangle of which some edges are split. Each part of an
- * edge is of a class four lower and halved once less, and so is what is split inside the triangle:
- * a point moves by the noise of each class once. (relief_reach counts it twice.)
+/* How far refinement can move a point of a triangle whose longest edge is of a class and halved so
+ * often. Each part of an edge is of a class four lower and halved once less, and so is what is
+ * split inside the triangle: a point moves by the noise of each class once. (relief_reach counts it
+ * twice.) Rounding moves it by one unit of height more at each level.
  */
+COPIED int32_t stray_of(const yb_map_t *map, int32_t bulge, int class, int often)
+{
+    int32_t reach = map->reach_q8[class];
+    const int rest = class - 4 * often;
+    if (reach == UINT16_MAX)
+        reach = RELIEF_MOST_REACH_Q8;
+    else if (rest >= 0)
+        reach -= map->reach_q8[rest];
+    return bulge + fix_min(often, REFINE_LEVELS) + 1 + (reach >> 1);
+}
+
+/* Of a triangle of which some edges are split. */
 static inline int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *part)
 {
-    const yb_map_t *map = frame->map;
-    const yb_edge_t often = refine_edges(part);
     yb_edge_t longest = 0; /* or one that is left whole, and shorter */
     for (int i = 0; i < 3; i++) {
         const yb_edge_t class = part->edge[i] & 0xff0000;
         longest = class > longest ? class : longest;
     }
-    int class = refine_class(longest);
-    const int32_t levels = fix_min((int32_t)(often >> 24), MOST_LEVELS); /* or more */
-    const int32_t stray = part->bulge + levels + 1;
-    if (levels < 2)
-        return stray + (map->noise[class] * (int32_t)RELIEF_HASH_MOST >> RELIEF_NOISE_SHIFT);
-    const relief_bound_t bound = {0, class};
-    return stray + (relief_reach(map, &bound, class + 4 - 4 * (int)levels) >> 1);
+    return stray_of(frame->map, part->bulge, refine_class(longest),
+                    (int)(refine_edges(part) >> 24)); /* or less often */
 }
 
 /* What of a triangle strays so far in height, when some of it may be in the water: what is above
@@ -243,80 +219,100 @@ static inline bool find_part_spare(const yb_frame_t *frame, int often, int32_t s
 {
     if (stray >= 1 << 14 || stray * near > frame->most_bend)
         return find_spare(frame, stray, near, spare);
-    int32_t levels = fix_min(often, MOST_LEVELS) + 1;
+    int32_t levels = fix_min(often, REFINE_LEVELS) + 1;
     spare->x = levels;
     spare->y = (((stray * near >> 10) + levels) * frame->lift >> frame->lift_shift) + levels;
     return true;
 }
 
-/* Are three spots that are `beyond` some sides of the view farther away than `spare` from one? */
-static bool farther(const refine_view_t *view, const yb_point_t *const p[3], int beyond,
-                    const spare_t *spare)
+/* Points that a triangle, or a wall, can become: a box, if all have spots, and how far they go. */
+typedef struct {
+    const yb_point_t *const *p;
+    int count;
+    int often; /* how often an edge may be halved */
+    int32_t stray;
+    box_t box;
+} crowd_t;
+
+/* Is it not in the view? Its box is widened, or, where a pyramid must do, has no end. */
+COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *crowd)
 {
-    const yb_spot_t *a = &p[0]->spot;
-    const yb_spot_t *b = &p[1]->spot;
-    const yb_spot_t *c = &p[2]->spot;
-    return ((beyond & REFINE_ABOVE) != 0 &&
-            view->top_q4 - fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4)) > spare->y) ||
-           ((beyond & REFINE_BELOW) != 0 &&
-            fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4)) - bottom_of(view) > spare->y) ||
-           ((beyond & REFINE_LEFT) != 0 &&
-            view->left_q4 - fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4)) > spare->x) ||
-           ((beyond & REFINE_RIGHT) != 0 &&
-            fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4)) - right_of(view) > spare->x);
+    box_t *box = &crowd->box;
+    spare_t spare;
+    if (box->near == 0 || !find_part_spare(frame, crowd->often, crowd->stray, box->near, &spare)) {
+        box->top = INT32_MIN;
+        box->bottom = INT32_MAX;
+        return misses_planes(frame, view, crowd->p, crowd->count, crowd->stray);
+    }
+    widen_box(&spare, box);
+    return box_misses(view, box);
 }
 
-/* Is nothing that a triangle can become in the view? Most lie in it as they are. Of one whose
- * corners are all beyond one side, such a side is enough: is it farther away than any of it can
- * come?
- */
+bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
+                          const yb_point_t *const *p, int count, int often, int32_t stray)
+{
+    crowd_t crowd = {.p = p, .count = count, .often = often, .stray = stray};
+    find_box(p, count, &crowd.box);
+    return misses(frame, view, &crowd);
+}
+
+/* Are three coordinates all before a way on the screen, or all behind it, by more than `spare`? */
+COPIED bool are_off(int32_t a, int32_t b, int32_t c, int32_t from, uint32_t size, int32_t spare)
+{
+    const int32_t first = from - spare;
+    const int32_t last = from + (int32_t)size - 1 + spare;
+    return (((a - first) & (b - first) & (c - first)) | ((last - a) & (last - b) & (last - c))) < 0;
+}
+
 bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
                     int beyond)
 {
     const yb_point_t *const *p = part->point;
-    if (beyond >= REFINE_NOWHERE)
-        return refine_misses(frame, view, p, 3, refine_stray(frame, part));
-    int32_t near = fix_max(p[0]->spot.near, fix_max(p[1]->spot.near, p[2]->spot.near));
-    int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
+    const int often = (int)(refine_edges(part) >> 24);
+    const int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+    /* Where speed counts more than size: of a box only the sides are looked at that it is beyond.
+     */
+    const yb_spot_t *a = &p[0]->spot;
+    const yb_spot_t *b = &p[1]->spot;
+    const yb_spot_t *c = &p[2]->spot;
+    const int32_t near = fix_max(a->near, fix_max(b->near, c->near));
     spare_t spare;
-    if (!find_part_spare(frame, (int)(refine_edges(part) >> 24), stray, near, &spare))
-        return misses_planes(frame, view, p, 3, stray);
-    return farther(view, p, beyond, &spare);
+    if (beyond < REFINE_NOWHERE && find_part_spare(frame, often, stray, near, &spare))
+        return ((beyond & (REFINE_ABOVE | REFINE_BELOW)) != 0 &&
+                are_off(a->y_q4, b->y_q4, c->y_q4, view->top_q4, view->high_q4, spare.y)) ||
+               ((beyond & (REFINE_LEFT | REFINE_RIGHT)) != 0 &&
+                are_off(a->x_q4, b->x_q4, c->x_q4, view->left_q4, view->wide_q4, spare.x));
+#else
+    (void)beyond;
+#endif
+    return refine_halved_misses(frame, view, p, 3, often, stray);
 }
 
 /* --- Rows ------------------------------------------------------------------------------------- */
+
+APART int32_t spread(int32_t a, int32_t b, int32_t c)
+{
+    return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
+}
 
 /* How far refinement can move a point of a base triangle, as limited_stray: no edge is longer than
  * its box in plan is across, nor any point nearer than `near`, a 1/depth, so that none is halved
  * more often than that line would be there. A refine_edge is at most 6.8 % longer than it should
  * be, and this line at most 2.8 % shorter: an eighth more, halved, is below 2^16, and near is.
  */
-typedef struct {
-    int32_t stray;
-    int often; /* how often an edge may be halved */
-} reach_t;
-
-static inline int32_t spread(int32_t a, int32_t b, int32_t c)
+COPIED void find_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near,
+                       crowd_t *crowd)
 {
-    return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
-}
-
-COPIED reach_t whole_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], int32_t near)
-{
-    const yb_map_t *map = frame->map;
     const int32_t wide = spread(v[0]->x_q8, v[1]->x_q8, v[2]->x_q8);
     const int32_t high = spread(v[0]->y_q8, v[1]->y_q8, v[2]->y_q8);
     const uint32_t length = (uint32_t)fix_length(wide, high);
-    reach_t reach = {0, 0};
     uint32_t size = ((length + (length >> 3)) >> 1) * (uint32_t)near;
     for (; size > frame->longest; size >>= 1)
-        reach.often++;
-    if (reach.often == 0)
-        return reach;
-    const relief_bound_t bound = {0, relief_class(wide, high)};
-    reach.stray = refine_bulge(map, v) + fix_min(reach.often, MOST_LEVELS) + 1 +
-                  (relief_reach(map, &bound, bound.longest + 4 - 4 * reach.often) >> 1);
-    return reach;
+        crowd->often++;
+    if (crowd->often > 0)
+        crowd->stray = stray_of(frame->map, refine_bulge(frame->map, v), relief_class(wide, high),
+                                crowd->often);
 }
 
 /* With the spare of a box nothing comes nearer by more than an eighth: 8/7. */
@@ -325,69 +321,31 @@ static inline int32_t nearest_in(const box_t *box)
     return fix_min(box->near + box->near / 7 + 1, 65535);
 }
 
-/* The rows that a base triangle may touch whose points go so far. False: it is not on the screen.
- */
-static bool rows_of_box(const refine_view_t *whole, const spare_t *spare, box_t *box,
-                        int32_t *first, int32_t *last)
-{
-    widen_box(spare, box);
-    *first = fix_clamp(box->top >> 4, 0, *last);
-    *last = fix_clamp(box->bottom >> 4, 0, *last);
-    return !box_misses(whole, box);
-}
-
-/* The same of one that has a wall below it, or of which some has no spot, may be under water, or
- * goes too far for a box.
- */
-APART bool rows_of_odd(const yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle,
-                       const yb_vertex_t *const v[3], int32_t *first, int32_t *last)
-{
-    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
-    yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
-    const yb_point_t *const p[REFINE_POINTS] = {&root[0], &root[1], &root[2],
-                                                &root[3], &root[4], &root[5]};
-    const bool walls = walls_are_below(frame, triangle);
-    const int count = walls ? REFINE_POINTS : 3;
-    for (int i = 0; i < 3; i++) {
-        camera_root(frame, corner[i], &root[i]);
-        if (walls)
-            camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
-    }
-    box_t box;
-    const bool seen = find_box(p, count, &box);
-    reach_t reach = whole_reach(frame, v, seen ? nearest_in(&box) : 65535);
-    reach.stray = stray_in_water(frame, p, reach.stray);
-    spare_t spare;
-    if (seen && find_part_spare(frame, reach.often, reach.stray, box.near, &spare))
-        return rows_of_box(whole, &spare, &box, first, last);
-    return !misses_planes(frame, whole, p, count, reach.stray);
-}
-
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
     const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
+    const yb_point_t *p[REFINE_POINTS];
     const yb_vertex_t *v[3];
-    bool plain = frame->view.water_q8 == YB_NO_WATER && !walls_are_below(frame, triangle);
-    box_t box;
-    begin_box(&box);
+    crowd_t crowd = {.p = p, .count = 0};
+    const bool walls = walls_are_below(frame, triangle);
     for (int i = 0; i < 3; i++) {
-        const yb_seen_t *seen = &frame->seen[corner[i]];
         v[i] = &frame->map->vertex[corner[i]];
-        plain = plain && seen->near != 0;
-        widen_to(&box, seen->x_q4, seen->y_q4, seen->near);
+        p[i] = &root[i];
+        p[3 + i] = &root[3 + i];
+        refine_corner(frame, whole, corner[i], &root[i]);
+        if (walls)
+            camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
     }
-    int32_t first = 0;
-    int32_t last = frame->screen.height - 1;
-    spare_t spare;
-    if (plain) {
-        const reach_t reach = whole_reach(frame, v, nearest_in(&box));
-        plain = find_part_spare(frame, reach.often, reach.stray, box.near, &spare);
+    crowd.count = walls ? REFINE_POINTS : 3;
+    find_box(p, crowd.count, &crowd.box);
+    find_reach(frame, v, crowd.box.near == 0 ? 65535 : nearest_in(&crowd.box), &crowd);
+    crowd.stray = stray_in_water(frame, p, crowd.stray);
+    const int32_t last = frame->screen.height - 1;
+    int bins = (int)(last >> frame->row_shift) << 4;
+    if (!misses(frame, whole, &crowd)) {
+        bins = (int)(fix_clamp(crowd.box.top >> 4, 0, last) >> frame->row_shift << 4 |
+                     fix_clamp(crowd.box.bottom >> 4, 0, last) >> frame->row_shift);
     }
-    const bool shown = plain ? rows_of_box(whole, &spare, &box, &first, &last)
-                             : rows_of_odd(frame, whole, triangle, v, &first, &last);
-    if (!shown) {
-        first = frame->screen.height - 1;
-        last = 0;
-    }
-    frame->bins[triangle] = (uint8_t)(first >> frame->row_shift << 4 | last >> frame->row_shift);
+    frame->bins[triangle] = (uint8_t)bins;
 }

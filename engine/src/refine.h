@@ -102,14 +102,21 @@ bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
 /* --- What is in sight: outside.c -------------------------------------------------------------- */
 
 enum {
-    REFINE_POINTS = 6
+    REFINE_POINTS = 6,
+    REFINE_LEVELS = 16 /* of midpoints, at most: plan coordinates have so many bits */
 };
 
 /* Is nothing of up to REFINE_POINTS points, and of what lies between them, in the view, when each
- * may move by `stray` in height?
+ * may move by `stray` in height, and edges be halved so often?
  */
-bool refine_misses(const yb_frame_t *frame, const refine_view_t *view, const yb_point_t *const *p,
-                   int count, int32_t stray);
+bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
+                          const yb_point_t *const *p, int count, int often, int32_t stray);
+
+static inline bool refine_misses(const yb_frame_t *frame, const refine_view_t *view,
+                                 const yb_point_t *const *p, int count, int32_t stray)
+{
+    return refine_halved_misses(frame, view, p, count, REFINE_LEVELS, stray);
+}
 
 /* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
 int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);

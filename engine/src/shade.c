@@ -13,6 +13,8 @@ enum {
     WATER_DIM = 4 /* and water, where there is no colour to tell it by */
 };
 
+#define SHORE_SCALE ((uint32_t)1 << 15)
+
 /* A direction. */
 typedef struct {
     int32_t x, y, z;
@@ -161,9 +163,9 @@ static normal_t raised(const yb_frame_t *frame, normal_t n)
     return to_13_bits(n.x * scale, n.y * scale, (uint32_t)n.z << 8 | 1);
 }
 
-static inline int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, normal_t n)
+static inline int32_t light_on(const yb_frame_t *frame, const yb_point_t *at, const normal_t *n)
 {
-    return frame->view.lamp ? lamp_light(frame, at, n) : sun_light(frame, n);
+    return frame->view.lamp ? lamp_light(frame, at, *n) : sun_light(frame, *n);
 }
 
 /* A shade, where a cast shadow may lie: in it, a quarter of what the sun gives is left, so that it
@@ -217,11 +219,13 @@ APART shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3
     return (shade_t){colour_pixel(frame, hue_of(frame, middle), shade, near), (uint16_t)light};
 }
 
-/* Does a triangle lie in the water? */
-static bool is_water(const yb_frame_t *frame, const yb_point_t *const corner[3])
+/* How many corners of a triangle lie in the water. */
+APART int wet_corners(const yb_frame_t *frame, const yb_point_t *const corner[3])
 {
-    const int32_t water = frame->view.water_q8;
-    return corner[0]->z_q8 <= water && corner[1]->z_q8 <= water && corner[2]->z_q8 <= water;
+    int wet = 0;
+    for (int i = 0; i < 3; i++)
+        wet += corner[i]->z_q8 <= frame->view.water_q8;
+    return wet;
 }
 
 /* The light where there is more to it than the sun's on ground, by a triangle's normal: x in the
@@ -231,13 +235,11 @@ APART int32_t odd_light(const yb_frame_t *frame, const yb_point_t *const corner[
                         uint32_t normal_xy, int32_t normal_z)
 {
     normal_t normal = {(int16_t)(normal_xy & 0xffff), (int32_t)normal_xy >> 16, normal_z};
-    const int32_t water = frame->view.water_q8;
-    const bool dry = corner[0]->z_q8 > water && corner[1]->z_q8 > water && corner[2]->z_q8 > water;
-    if (dry && frame->map->smooth)
+    if (wet_corners(frame, corner) == 0 && frame->smooth)
         smooth_normal(slopes_of(corner), &normal);
     if (frame->view.exaggerate_q8 != 256)
         normal = raised(frame, normal);
-    return light_on(frame, corner[0], normal);
+    return light_on(frame, corner[0], &normal);
 }
 
 /* What a triangle looks like that has this light. */
@@ -246,7 +248,7 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     const uint32_t looks = frame->looks;
     const int32_t shade = shadowed(frame, corner, light);
     uint16_t pixel = (uint16_t)shade;
-    if ((looks & LOOK_ODD) != 0 && is_water(frame, corner))
+    if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
         pixel = water_pixel(frame, shade, nearest_of(corner));
     else if ((looks & LOOK_COLOURS) != 0)
         return coloured(frame, corner, shade, light);
@@ -281,43 +283,36 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 /* What is darker on light ground and lighter on dark; a colour of its own where there are any. */
 static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
-    if ((frame->looks & LOOK_COLOURS) != 0)
-        return colour_pixel(frame, hue, shade, near);
     const int32_t contrast = frame->screen.format == YB_MONO ? SHADES : SHADES / 3;
-    shade =
-        shade > SHADES / 3 ? fix_max(shade - contrast, 0) : fix_min(shade + contrast, SHADES - 1);
-    return colour_grey(frame, shade, near);
+    if ((frame->looks & LOOK_COLOURS) == 0)
+        shade = shade > SHADES / 3 ? fix_max(shade - contrast, 0)
+                                   : fix_min(shade + contrast, SHADES - 1);
+    return colour_pixel(frame, hue, shade, near);
 }
 
-/* The shore, where a triangle reaches into the water: heights less than 2^16 from that have values
- * within 2^31.
+/* A triangle's shore, where it reaches into the water: heights less than 2^16 from that have values
+ * within 2^31. Or its contour lines.
  */
-APART bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], uint16_t above,
-                     raster_cut_t *cut)
+APART bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
+                  raster_cut_t *cut)
 {
     static const normal_t level = {0, 0, 1 << 12};
-    static const lines_scale_t scale = {(uint32_t)1 << 15, 0};
-    const int32_t near = nearest_of(p);
-    const int32_t flat = shadowed(frame, p, light_on(frame, p[0], level));
-    cut->below = water_pixel(frame, flat, near);
-    cut->above = above;
-    cut->line = line_pixel(frame, HUE_SHORE, SHADES - 1, near);
-    return lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, p[1]->z_q8 - p[0]->z_q8,
-                      p[2]->z_q8 - p[0]->z_q8,
-                      (uint32_t)(p[0]->z_q8 - frame->view.water_q8) * scale.scale, scale, cut);
-}
-
-/* Contour lines, where a triangle may reach one. */
-APART bool cut_ground(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
-                      raster_cut_t *cut)
-{
-    const int32_t z = p[0]->z_q8;
-    const lines_scale_t scale = {frame->contour_inverse, frame->contour_shift};
-    if (!lines_find(&p[0]->spot, &p[1]->spot, &p[2]->spot, p[1]->z_q8 - z, p[2]->z_q8 - z,
-                    (uint32_t)z * scale.scale + frame->contour_zero, scale, cut))
+    lines_scale_t scale = {frame->contour_inverse, frame->contour_zero, frame->contour_shift};
+    if (shore)
+        scale = (lines_scale_t){SHORE_SCALE, 0 - (uint32_t)frame->view.water_q8 * SHORE_SCALE, 0};
+    if (!lines_find(p, scale, cut))
         return false;
+    const int32_t near = nearest_of(p);
+    int hue = HUE_LINE;
+    int32_t light = shade.light;
     cut->below = cut->above = shade.pixel;
-    cut->line = line_pixel(frame, HUE_LINE, shade.light, nearest_of(p));
+    if (shore) {
+        hue = HUE_SHORE;
+        light = SHADES - 1;
+        const int32_t flat = shadowed(frame, p, light_on(frame, p[0], &level));
+        cut->below = water_pixel(frame, flat, near);
+    }
+    cut->line = line_pixel(frame, hue, light, near);
     return true;
 }
 
@@ -330,18 +325,18 @@ bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t sh
     const int32_t low = fix_min(fix_min(rise_b, 0), rise_c);
     const int32_t high = fix_max(fix_max(rise_b, 0), rise_c);
     const uint32_t range = (uint32_t)(high - low);
-    if (!USUAL(z + low >= frame->view.water_q8))
-        return z + high > frame->view.water_q8 && range < (uint32_t)1 << 16 &&
-               cut_shore(frame, p, shade.pixel, cut);
+    if (range >= (uint32_t)1 << 16)
+        return false;
+    const bool shore = z + low < frame->view.water_q8;
     /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
      * is no more than a quarter of a triangle that has pixels. What is above the highest line below
      * the top is less than all. */
     const uint32_t span = range * frame->contour_inverse;
     const uint32_t top = (uint32_t)(z + high) * frame->contour_inverse + frame->contour_zero;
-    if (range >= frame->contour_few ? range >= (uint32_t)1 << 16
-                                    : top + (span >> 2) > span + (span >> 1))
+    if (shore ? z + high <= frame->view.water_q8
+              : range < frame->contour_few && top + (span >> 2) > span + (span >> 1))
         return false;
-    return cut_ground(frame, p, shade, cut);
+    return cut_by(frame, p, shade, shore, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
@@ -350,7 +345,7 @@ uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
     normal_t outward = to_13_bits(dy * 4096, -dx * 4096, 1); /* of 17 bits */
-    int32_t shade = fix_max(light_on(frame, a, outward) - WALL_DIM, DARKEST);
+    int32_t shade = fix_max(light_on(frame, a, &outward) - WALL_DIM, DARKEST);
     int32_t near = fix_max(a->spot.near, b->spot.near);
     int32_t water = frame->view.water_q8;
     if (a->z_q8 <= water && b->z_q8 <= water)

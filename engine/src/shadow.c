@@ -83,7 +83,7 @@ static void set_cells(void *context, const yb_vertex_t *a, const yb_vertex_t *b,
     if (area <= 0)
         return;
     /* Shares of 2^8 by one division: a weight of 15 bits times 2^23 / area is below 2^24. */
-    int spare = fix_log2_floor((uint32_t)area) > 14 ? fix_log2_floor((uint32_t)area) - 14 : 0;
+    const int spare = fix_log2_floor((uint32_t)area | (uint32_t)1 << 14) - 14;
     int32_t inverse = ((int32_t)1 << 23) / (area >> spare);
     for (int32_t j = rows.first; j < rows.end; j++) {
         uint8_t *height = &field->height[j * field->side];
@@ -186,14 +186,16 @@ static uint16_t cells_of(uint16_t length_q8, int shift)
 void yb_shadow_cast(const yb_map_t *map, const yb_view_t *view, yb_shadow_t *shadow, uint8_t *work)
 {
     const int shift = shadow_cell_shift(shadow);
-    field_t field = {.height = work, .shift = shift};
+    field_t field;
+    field.height = work;
+    field.shift = shift;
     const int16_t *sun = view->sun_q14;
     bool along_x = fix_abs(sun[0]) >= fix_abs(sun[1]);
     int32_t ahead = along_x ? sun[0] : sun[1];
     int32_t aside = along_x ? sun[1] : sun[0];
     int32_t size = fix_abs(ahead);
     int32_t up = sun[2];
-    bool high = up > 0 && up >> 6 >= size; /* 89 degrees: nothing casts a shadow */
+    bool high = up >> 6 >= size; /* 89 degrees: nothing casts a shadow */
     shadow->columns = cells_of(map->east_q8, shift);
     shadow->rows = cells_of(map->north_q8, shift);
     memset(shadow->lit, high ? 0xff : 0, YB_SHADOW_BYTES(shadow->side));

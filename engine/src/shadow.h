@@ -47,8 +47,6 @@ static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int3
     bits = bits >> (cell & 7) & 0x30003;
     if (bits == 0x30003)
         return SHADOW_NONE;
-    if (bits == 0)
-        return 0;
     const uint32_t east = (uint32_t)x & 7;
     const uint32_t up = (uint32_t)y & 7;
     const uint32_t rows = (bits & 0x10001) * (8 - east) + (bits >> 1 & 0x10001) * east;

@@ -291,13 +291,18 @@ static void slopes_are_nearly_exact(void **state)
 static bool find_lines(const yb_spot_t p[3], const int32_t value[3], int32_t zero, int32_t interval,
                        raster_cut_t *cut)
 {
-    lines_scale_t scale = {(uint32_t)1 << 15, 0};
+    const yb_point_t corner[3] = {
+        {.spot = p[0], .z_q8 = value[0]},
+        {.spot = p[1], .z_q8 = value[1]},
+        {.spot = p[2], .z_q8 = value[2]},
+    };
+    lines_scale_t scale = {.scale = (uint32_t)1 << 15};
     if (interval > 0) {
         scale.scale = UINT32_MAX / (uint32_t)interval + 1;
         scale.shift = fix_log2_floor(scale.scale) - 15;
     }
-    return lines_find(&p[0], &p[1], &p[2], value[1] - value[0], value[2] - value[0],
-                      (uint32_t)(value[0] - zero) * scale.scale, scale, cut);
+    scale.zero = 0 - (uint32_t)zero * scale.scale;
+    return lines_find((const yb_point_t *const[3]){&corner[0], &corner[1], &corner[2]}, scale, cut);
 }
 
 /* Small triangles are drawn in two ways: where they lie, and whether lines cross them, decides. */

@@ -177,9 +177,11 @@ typedef struct {
  */
 static inline size_t yb_map_packed_at(const yb_map_t *map)
 {
+    const size_t first = offsetof(yb_map_t, vertex);
+    const size_t each = sizeof *map->vertex;
+    const size_t end = first + map->vertex_count * each;
     const size_t to = sizeof(yb_across_t);
-    return (offsetof(yb_map_t, vertex) + map->vertex_count * sizeof *map->vertex + to - 1) / to *
-           to;
+    return first % to == 0 && each % to == 0 ? end : (end + to - 1) / to * to;
 }
 
 static inline const yb_across_t *yb_map_across(const yb_map_t *map)
