@@ -319,19 +319,22 @@ static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_
     };
 }
 
+static inline int32_t depth_of(const yb_frame_t *frame, way_t way)
+{
+    return (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
+}
+
 void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
 {
     const way_t way = way_to(frame, place, top_q8);
     to->right = (way.x * frame->right_x + way.y * frame->right_y) >> 14;
     to->up = (way.x * frame->up_x + way.y * frame->up_y + way.z * frame->up_z) >> 14;
-    to->depth = (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
+    to->depth = depth_of(frame, way);
 }
 
 int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
 {
-    camera_point_t at;
-    camera_view(frame, place, top_q8, &at);
-    return at.depth;
+    return depth_of(frame, way_to(frame, place, top_q8));
 }
 
 /* 2^29 over a depth that is shifted so: 2^14 to 2^15. */

@@ -39,26 +39,39 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     }
 }
 
+/* May points that move by `stray` come in from so far outside a plane? stray < 2^19 and lift < 2^14:
+ * within 2^29 after the shift by 4.
+ */
+static inline bool comes_in(const refine_plane_t *plane, int32_t inside, int32_t stray)
+{
+    return inside >= -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12);
+}
+
 /* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0;
  * depth < 2^18 and |slope| <= 2 * 2^8 make 2^27.
  */
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int32_t stray)
 {
-    camera_point_t at[REFINE_POINTS];
-    for (int k = 0; k < count; k++)
-        camera_view(frame, p[k]->place, p[k]->top_q8, &at[k]);
-    for (int i = 0; i < REFINE_PLANES; i++) {
-        const refine_plane_t *plane = &view->plane[i];
-        int32_t most = INT32_MIN;
-        for (int k = 0; k < count; k++)
-            most = fix_max(most, plane->right * at[k].right + plane->up * at[k].up +
-                                     ((at[k].depth * plane->slope_q8) >> 8) - plane->near);
-        /* stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4. */
-        if (most < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12))
-            return true;
+    const refine_plane_t *plane = view->plane;
+    int32_t near = INT32_MIN;
+    int32_t left = INT32_MIN;
+    int32_t right = INT32_MIN;
+    int32_t top = INT32_MIN;
+    int32_t bottom = INT32_MIN;
+    for (int k = 0; k < count; k++) {
+        camera_point_t at;
+        camera_view(frame, p[k]->place, p[k]->top_q8, &at);
+        const int32_t aside = at.depth * plane[1].slope_q8 >> 8; /* and plane[2]'s */
+        near = fix_max(near, at.depth - plane->near);
+        left = fix_max(left, aside + at.right);
+        right = fix_max(right, aside - at.right);
+        top = fix_max(top, (at.depth * plane[3].slope_q8 >> 8) - at.up);
+        bottom = fix_max(bottom, (at.depth * plane[4].slope_q8 >> 8) + at.up);
     }
-    return false;
+    return !comes_in(&plane[0], near, stray) || !comes_in(&plane[1], left, stray) ||
+           !comes_in(&plane[2], right, stray) || !comes_in(&plane[3], top, stray) ||
+           !comes_in(&plane[4], bottom, stray);
 }
 
 /* The box on the screen that holds some points and what lies between them, 1/16 pixel. */
