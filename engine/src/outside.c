@@ -27,29 +27,26 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     const int32_t scale = frame->view.exaggerate_q8;
     for (int i = 0; i < REFINE_PLANES; i++) {
         refine_plane_t *plane = &view->plane[i];
-        const int across = i == 0 ? 0 : 2 * (i & 1) - 1;
+        const int up = i < REFINE_TOP ? 0 : i == REFINE_TOP ? -1 : 1;
         const int32_t slope = (off_q4[i] * 256 + (off_q4[i] > 0 ? focal - 1 : 0)) / focal;
-        plane->right = (int8_t)(i < 3 ? across : 0);
-        plane->up = (int8_t)(i < 3 ? 0 : -across);
         plane->slope_q8 = slope;
-        plane->near = i == 0 ? frame->near : 0;
+        plane->near = i == REFINE_NEAR ? frame->near : 0;
         const int32_t lift =
-            plane->up * (frame->up_z * scale >> 13) + (slope * (frame->depth_z * scale >> 13) >> 8);
+            up * (frame->up_z * scale >> 13) + (slope * (frame->depth_z * scale >> 13) >> 8);
         plane->lift_q9 = (fix_abs(lift) >> frame->eye_shift) + 2;
     }
 }
 
-/* May points that move by `stray` come in from so far outside a plane? stray < 2^19 and lift < 2^14:
- * within 2^29 after the shift by 4.
+/* Points are inside a plane where slope * depth plus or minus right or up is `near` or more; depth
+ * < 2^18 and |slope| <= 2 * 2^8 make 2^27. May some that move by `stray` come in, when `most` is
+ * the greatest of their sums? stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4.
  */
-static inline bool comes_in(const refine_plane_t *plane, int32_t inside, int32_t stray)
+static inline bool come_in(const refine_plane_t *plane, int32_t most, int32_t stray)
 {
-    return inside >= -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12);
+    return most - plane->near >= -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12);
 }
 
-/* For points without spots. Inside a plane is across . (right, up) + slope * depth - near >= 0;
- * depth < 2^18 and |slope| <= 2 * 2^8 make 2^27.
- */
+/* For points without spots. */
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int32_t stray)
 {
@@ -62,16 +59,18 @@ static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
     for (int k = 0; k < count; k++) {
         camera_point_t at;
         camera_view(frame, p[k]->place, p[k]->top_q8, &at);
-        const int32_t aside = at.depth * plane[1].slope_q8 >> 8; /* and plane[2]'s */
-        near = fix_max(near, at.depth - plane->near);
+        const int32_t aside = at.depth * plane[REFINE_LEFTMOST].slope_q8 >> 8; /* on both sides */
+        near = fix_max(near, at.depth);
         left = fix_max(left, aside + at.right);
         right = fix_max(right, aside - at.right);
-        top = fix_max(top, (at.depth * plane[3].slope_q8 >> 8) - at.up);
-        bottom = fix_max(bottom, (at.depth * plane[4].slope_q8 >> 8) + at.up);
+        top = fix_max(top, (at.depth * plane[REFINE_TOP].slope_q8 >> 8) - at.up);
+        bottom = fix_max(bottom, (at.depth * plane[REFINE_BOTTOM].slope_q8 >> 8) + at.up);
     }
-    return !comes_in(&plane[0], near, stray) || !comes_in(&plane[1], left, stray) ||
-           !comes_in(&plane[2], right, stray) || !comes_in(&plane[3], top, stray) ||
-           !comes_in(&plane[4], bottom, stray);
+    return !come_in(&plane[REFINE_NEAR], near, stray) ||
+           !come_in(&plane[REFINE_LEFTMOST], left, stray) ||
+           !come_in(&plane[REFINE_RIGHTMOST], right, stray) ||
+           !come_in(&plane[REFINE_TOP], top, stray) ||
+           !come_in(&plane[REFINE_BOTTOM], bottom, stray);
 }
 
 /* The box on the screen that holds some points and what lies between them, 1/16 pixel. */

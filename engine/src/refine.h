@@ -25,13 +25,17 @@ enum {
     REFINE_NOWHERE = 16 /* it has no spot */
 };
 
-/* The pyramid that some rows of the screen are seen through: near, left, right, top, bottom. */
+/* The pyramid that some rows of the screen are seen through. */
 enum {
-    REFINE_PLANES = 5
+    REFINE_NEAR,
+    REFINE_LEFTMOST,
+    REFINE_RIGHTMOST,
+    REFINE_TOP,
+    REFINE_BOTTOM,
+    REFINE_PLANES
 };
 
 typedef struct {
-    int8_t right, up; /* -1, 0 or 1 */
     int32_t slope_q8; /* of depth */
     int32_t near;
     int32_t lift_q9; /* what one unit of height changes, at most */

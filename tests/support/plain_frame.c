@@ -31,7 +31,9 @@ const refine_view_t *plain_view(const yb_frame_t *frame)
 {
     static refine_view_t view;
     const uint32_t high = frame->screen.height * (uint32_t)16;
-    view = (refine_view_t){-(1 << 20), -(int32_t)high, 1 << 21, 3 * high + 1, {{0, 0, 0, 0, 0}}};
+    view = (refine_view_t){-(1 << 20), -(int32_t)high, 1 << 21, 3 * high + 1, {{0, 0, 0}}};
+    for (int i = 0; i < REFINE_PLANES; i++)
+        view.plane[i].near = -(1 << 28); /* all is inside */
     return &view;
 }
 
