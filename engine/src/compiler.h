@@ -11,11 +11,17 @@
 #define APART static
 #endif
 
-/* A function that is in line wherever it is called, where speed counts more than size. */
+/* Does speed count more than size? Then what most triangles need has a copy of its own, COPIED
+ * functions are in line wherever they are called, and SELDOM ones stay apart.
+ */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define COPIES 1
 #define COPIED static inline __attribute__((always_inline))
+#define SELDOM APART
 #else
+#define COPIES 0
 #define COPIED static inline
+#define SELDOM static
 #endif
 
 /* What holds for most triangles: code is laid out by it. */

@@ -40,22 +40,30 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
         hand_out(raster, p);
 }
 
-/* A leaf: draws it, if some of it may be in the band. */
-static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
+/* Draws a front that is not small, or that may have lines. */
+SELDOM void draw_odd(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const p[3],
+                     const raster_shape_t *shape, bool small)
 {
-    const int beyond = a->spot.out & b->spot.out & c->spot.out;
-    const int some = a->spot.out | b->spot.out | c->spot.out;
-    if ((beyond & REFINE_SIDES) != 0)
-        return;
+    const shade_t shade = shade_ground(frame, p);
+    raster_cut_t cut;
+    const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
+    if (small)
+        raster_level(raster, shape, shade.pixel, cuts ? &cut : NULL);
+    else
+        raster_plane(raster, shape, shade.pixel, cuts ? &cut : NULL);
+}
+
+/* Draws a leaf whose corners are beyond some sides of the band, or none. */
+COPIED void draw_leaf(const walk_t *walk, const yb_point_t *const p[3], int some)
+{
     yb_frame_t *frame = walk->frame;
     const raster_t *raster = walk->raster;
-    const yb_point_t *const p[3] = {a, b, c};
     if ((some & REFINE_NOWHERE) != 0) {
         draw_clipped(frame, walk->view, raster, p);
         return;
     }
     raster_shape_t shape;
-    raster_look_t look = raster_front(&a->spot, &b->spot, &c->spot, &shape);
+    const raster_look_t look = raster_front(&p[0]->spot, &p[1]->spot, &p[2]->spot, &shape);
     if (look == RASTER_NOTHING)
         return;
     frame->stats.drawn++;
@@ -67,13 +75,33 @@ static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, c
     if (look == RASTER_BETWEEN ||
         ((some & (REFINE_ABOVE | REFINE_BELOW)) != 0 && !raster_clip(raster, &shape)))
         return;
-    const shade_t shade = shade_ground(frame, p);
-    raster_cut_t cut;
-    const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
-    if (look == RASTER_SMALL && (some & (REFINE_LEFT | REFINE_RIGHT)) == 0)
-        raster_level(raster, &shape, shade.pixel, cuts ? &cut : NULL);
-    else
-        raster_plane(raster, &shape, shade.pixel, cuts ? &cut : NULL);
+    const bool small = look == RASTER_SMALL && (some & (REFINE_LEFT | REFINE_RIGHT)) == 0;
+    if (!COPIES || !small || frame->lines) {
+        draw_odd(frame, raster, p, &shape, small);
+        return;
+    }
+    raster_plain(raster, &shape, shade_ground(frame, p).pixel);
+}
+
+/* A leaf that is beyond some sides of the band. */
+SELDOM void leaf_partly(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,
+                        const yb_point_t *c)
+{
+    if ((a->spot.out & b->spot.out & c->spot.out & REFINE_SIDES) != 0)
+        return;
+    const yb_point_t *const p[3] = {a, b, c};
+    draw_leaf(walk, p, a->spot.out | b->spot.out | c->spot.out);
+}
+
+/* A leaf: draws it, if some of it may be in the band. Most are all within it. */
+static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
+{
+    if (!COPIES || !USUAL((a->spot.out | b->spot.out | c->spot.out) == 0)) {
+        leaf_partly(walk, a, b, c);
+        return;
+    }
+    const yb_point_t *const p[3] = {a, b, c};
+    draw_leaf(walk, p, 0);
 }
 
 /* A triangle of which one or two edges are split, once: as refine_split, and its parts in the order

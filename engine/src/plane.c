@@ -69,11 +69,18 @@ COPIED void draw_plane(bool colours, const raster_t *raster, const raster_shape_
     }
 }
 
+/* As draw_plane, with lines. */
+SELDOM void lined_plane(const raster_t *raster, const raster_shape_t *shape,
+                        const raster_cut_t *cut)
+{
+    draw_plane(raster->colours, raster, shape, 0, cut);
+}
+
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
     if (cut != NULL)
-        ROWS_DRAW(draw_plane, raster, shape, 0, cut);
+        lined_plane(raster, shape, cut);
     else
         ROWS_DRAW(draw_plane, raster, shape, pixel, NULL);
 }

@@ -56,32 +56,44 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
     const bool turns_left = b->y_q4 < c->y_q4;
     const int32_t turn = raster_pixel(turns_left ? b->y_q4 : c->y_q4);
-    const bool turned = y >= turn;
     const uint32_t base = begin_base(2 * pair);
-    side_t left = turned && turns_left ? begin_side(b, c, base, y) : begin_side(a, b, base, y);
-    side_t right = turned && !turns_left ? begin_side(c, b, base, y) : begin_side(a, c, base, y);
-    int32_t rest = turned ? 0 : shape->bottom - turn;
-    int32_t rows = rest > 0 ? turn - y : shape->bottom - y;
+    side_t left;
+    side_t right;
+    int32_t rows = shape->bottom - y;
+    int32_t rest = 0;
+    if (y < turn) {
+        left = begin_side(a, b, base, y);
+        right = begin_side(a, c, base, y);
+        rest = shape->bottom - turn;
+        if (rest > 0)
+            rows = turn - y;
+    } else if (turns_left) {
+        left = begin_side(b, c, base, y);
+        right = begin_side(a, c, base, y);
+    } else {
+        left = begin_side(a, b, base, y);
+        right = begin_side(c, b, base, y);
+    }
     for (;;) {
-        if (cut != NULL) {
-            rows_cut(colours, row, crossing_of(&left), crossing_of(&right), value, cut);
-            value += (uint32_t)cut->along_y;
-        } else {
-            rows_fill(colours, row, crossing_of(&left), crossing_of(&right), pixel);
-        }
-        row += pitch;
-        left.at += left.step;
-        right.at += right.step;
-        if (--rows == 0) {
-            if (rest <= 0)
-                return;
-            if (turns_left)
-                left = begin_side(b, c, base, turn);
-            else
-                right = begin_side(c, b, base, turn);
-            rows = rest;
-            rest = 0;
-        }
+        do {
+            if (cut != NULL) {
+                rows_cut(colours, row, crossing_of(&left), crossing_of(&right), value, cut);
+                value += (uint32_t)cut->along_y;
+            } else {
+                rows_fill(colours, row, crossing_of(&left), crossing_of(&right), pixel);
+            }
+            row += pitch;
+            left.at += left.step;
+            right.at += right.step;
+        } while (--rows != 0);
+        if (rest <= 0)
+            return;
+        if (turns_left)
+            left = begin_side(b, c, base, turn);
+        else
+            right = begin_side(c, b, base, turn);
+        rows = rest;
+        rest = 0;
     }
 }
 
@@ -89,6 +101,18 @@ APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const
 {
     ROWS_DRAW(draw_level, raster, shape, 0, cut);
 }
+
+#if COPIES
+void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    draw_level(false, raster, shape, pixel, NULL);
+}
+
+void raster_colours(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    draw_level(true, raster, shape, pixel, NULL);
+}
+#endif
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)

@@ -4,6 +4,8 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "fix.h"
+
 /* Twice an area in 1/256 square pixel. Corners lie within a screen size and a little of the screen,
  * so differences are at most 3 * 16 * YB_MAX_SIDE + 80: 24656 for 512 pixels, and a product of two,
  * twice, 2 * 24656^2 < 2^31.
@@ -85,7 +87,7 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
         c = last;
     }
     const int32_t high = a->y_q4;
-    const int32_t low = b->y_q4 > c->y_q4 ? b->y_q4 : c->y_q4;
+    const int32_t low = fix_max(b->y_q4, c->y_q4);
     shape->top = raster_pixel(high);
     shape->bottom = raster_pixel(low);
     const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
@@ -122,6 +124,24 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
                   const raster_cut_t *cut);
 void raster_plane(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut);
+
+/* As raster_level, without lines: a call less. */
+#if COPIES
+void raster_colours(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
+void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel);
+static inline void raster_plain(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    if (raster->colours)
+        raster_colours(raster, shape, pixel);
+    else
+        raster_greys(raster, shape, pixel);
+}
+#else
+static inline void raster_plain(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    raster_level(raster, shape, pixel, NULL);
+}
+#endif
 
 static inline bool raster_on_screen(const raster_t *raster, const yb_spot_t *p)
 {
