@@ -16,11 +16,11 @@ static const uint8_t dither[17][4] YB_ROM = {
 
 void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky)
 {
+    const size_t bytes = yb_band_row_bytes(raster->screen);
     uint8_t *at = pixels_row(raster, y);
-    uint8_t *const end = at + yb_band_row_bytes(raster->screen);
+    uint8_t *const end = at + bytes;
     if (!raster->colours) {
-        for (; at != end; at++)
-            *at = 0;
+        memset(at, 0, bytes);
         return;
     }
     const uint16_t swapped = pixels_swapped(sky);
