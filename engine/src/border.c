@@ -2,22 +2,24 @@
 #include "mesh.h"
 
 /* SPEC 1.5: which points of a contour may lie on the frame. */
-static bool check_contour(const yb_load_t *load, yb_contour_t *contour)
+static bool check_contour(const yb_load_t *load, const yb_contour_t *contour)
 {
     const yb_vertex_t *first = vertex_of(load, contour->first);
     const yb_vertex_t *last = first + contour->count - 1;
-    yb_vertex_t middle;
-    int on = 0;
-    for (const yb_vertex_t *v = first; v <= last; v++)
-        on += on_frame(load, v);
-    contour->open = contour->count > 1 && on_frame(load, first) && on_frame(load, last);
-    if (on != (contour->open ? 2 : 0))
-        return false;
+    int ends = 0; /* on the frame */
+    for (const yb_vertex_t *v = first; v <= last; v++) {
+        if (!on_frame(load, v))
+            continue;
+        if (v != first && v != last)
+            return false;
+        ends++;
+    }
     if (contour->count != 2)
-        return true;
+        return ends != 1;
     /* A straight line across: not along one side, where it would bound nothing. */
+    yb_vertex_t middle;
     find_middle_of(first, last, &middle);
-    return contour->open && !on_frame(load, &middle);
+    return ends == 2 && !on_frame(load, &middle);
 }
 
 /* Way along the frame, counter-clockwise from the south-west corner, in q8 steps. */
@@ -37,7 +39,7 @@ static uint32_t way_of(const yb_load_t *load, const yb_vertex_t *v)
 /* The height at a corner: between the nearest known heights along the frame, both ways, of which
  * its own is one.
  */
-static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
+APART int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
 {
     uint32_t round = 2 * ((uint32_t)load->map->east_q8 + load->map->north_q8);
     uint32_t way = way_of(load, corner);
@@ -45,7 +47,7 @@ static int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
     uint32_t last = 0;
     int32_t height_next = 0;
     int32_t height_last = 0;
-    for (int i = 0; i < load->map->vertex_count; i++) {
+    for (int i = 0; i < load->vertex_count; i++) {
         const yb_vertex_t *v = vertex_of(load, i);
         if (v->z_q8 == UNKNOWN_HEIGHT || !on_frame(load, v))
             continue;
@@ -81,11 +83,10 @@ static bool place_corner(yb_load_t *load, int k)
         .z_q8 = load->corner_height[k],
     };
     int i = 0;
-    while (i < load->map->vertex_count && !same_place(vertex_of(load, i), &corner))
+    while (i < load->vertex_count && !same_place(vertex_of(load, i), &corner))
         i++;
     load->corner[k] = (yb_index_t)i;
-    return i < load->map->vertex_count ? corner.z_q8 == UNKNOWN_HEIGHT
-                                       : mesh_add_vertex(load, &corner);
+    return i < load->vertex_count ? corner.z_q8 == UNKNOWN_HEIGHT : mesh_add_vertex(load, &corner);
 }
 
 bool border_close(yb_load_t *load)

@@ -23,11 +23,13 @@ enum part {
     CHECK
 };
 
-static void attach(yb_load_t *load, yb_map_t *map)
+APART void attach(yb_load_t *load, yb_map_t *map)
 {
     load->map = map;
     load->vertex = map->vertex;
     load->across = map->across;
+    load->corners = map->triangle[0];
+    load->scratch = &load->scratch_memory;
 }
 
 void yb_map_begin(yb_map_t *map, yb_load_t *load)
@@ -46,11 +48,13 @@ void yb_map_begin(yb_map_t *map, yb_load_t *load)
 yb_status_t yb_map_build(yb_map_t *map, yb_load_t *load)
 {
     attach(load, map);
-    map->vertex_count = load->point_count;
-    if (!border_close(load) || !mesh_triangulate(load) || !regions_find(load))
+    load->vertex_count = load->point_count;
+    if (!border_close(load) || !mesh_triangulate(load))
         return YB_ERR_CORRUPT;
+    regions_find(load);
     if (!summits_add(load) || !links_add(load) || !skeleton_add(load))
         return YB_ERR_LIMIT;
+    map->vertex_count = load->vertex_count;
     relief_prepare(load);
     return YB_OK;
 }
@@ -148,7 +152,7 @@ static yb_status_t take_tail(yb_load_t *load, uint8_t byte)
     return YB_MORE;
 }
 
-static yb_status_t take_byte(yb_load_t *load, uint8_t byte)
+APART yb_status_t take_byte(yb_load_t *load, uint8_t byte)
 {
     load->crc = crc8(load->crc, byte);
     load->size++;

@@ -117,7 +117,7 @@ static void ask(yb_load_t *load, int field)
 
 static int decide(yb_load_t *load, int model_index)
 {
-    uint16_t *model = &load->model[model_index];
+    uint16_t *model = &load->scratch->model[model_index];
     uint32_t bound = model_bound(*model, load->range);
     int bit = load->code >= bound;
     if (bit != 0) {
@@ -267,7 +267,7 @@ APART bool add_here(yb_load_t *load, int32_t units)
 /* There are at most as many contours as points, so that there is room for one if for its point. */
 static bool begin_contour(yb_load_t *load, int32_t units)
 {
-    int first = load->map->vertex_count;
+    int first = load->vertex_count;
     if (!add_here(load, units))
         return false;
     yb_contour_t *contour = &load->contour[load->contour_count++];
@@ -281,7 +281,7 @@ static int32_t height_near(const yb_load_t *load)
 {
     int32_t nearest = INT32_MAX;
     int32_t units = 0;
-    for (int i = 0; i < load->map->vertex_count; i++) {
+    for (int i = 0; i < load->vertex_count; i++) {
         const yb_vertex_t *v = vertex_of(load, i);
         int32_t dx = (int32_t)(v->x_q8 >> 8) - load->x * load->spacing;
         int32_t dy = (int32_t)(v->y_q8 >> 8) - load->y * load->spacing;
@@ -386,8 +386,8 @@ static int take_place(yb_load_t *load, int rest)
     if (!add_here(load, load->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     if (load->open)
-        return on_frame(load, &load->vertex[load->map->vertex_count - 1]) ? next_line(load)
-                                                                          : next_step(load);
+        return on_frame(load, &load->vertex[load->vertex_count - 1]) ? next_line(load)
+                                                                     : next_step(load);
     if (contour->count < 3)
         return next_step(load);
     int32_t away = fix_max(fix_abs(load->x - load->start_x), fix_abs(load->y - load->start_y));
@@ -537,8 +537,8 @@ static yb_status_t end_relief(yb_load_t *load)
     map->seed = load->recent >> 8 & 127;
     if (base_64th_m >> 22 != 0)
         return YB_ERR_CORRUPT;
-    const int count = map->vertex_count; /* signed, also where an int has 16 bits */
-    load->point_count = map->vertex_count;
+    const int count = load->vertex_count; /* signed, also where an int has 16 bits */
+    load->point_count = load->vertex_count;
     /* The frame's height, those of its corners that the code has, and the points'. */
     for (int i = -5; i < count; i++) {
         int32_t *height = i == -5 ? &load->frame_height
@@ -569,7 +569,7 @@ static int take_field(yb_load_t *load)
 void compact_begin(yb_load_t *load)
 {
     for (int i = 0; i < MODELS; i++)
-        load->model[i] = model_first(i);
+        load->scratch->model[i] = model_first(i);
     load->range = 1;
     ask(load, CELL_EXPONENT);
 }

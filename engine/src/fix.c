@@ -15,15 +15,6 @@ static const uint16_t exp_table[33] YB_ROM = {
     8816,  9727,  10657, 11608, 12580, 13573, 14588, 15625, 16684, 17767, 18874,
     20005, 21160, 22341, 23548, 24781, 26041, 27329, 28645, 29989, 31364, 32768};
 
-/* round(16384 sin(i/64 of a right angle)); the last one is not used, but read */
-static const uint16_t sine_table[66] YB_ROM = {
-    0,     402,   804,   1205,  1606,  2006,  2404,  2801,  3196,  3590,  3981,
-    4370,  4756,  5139,  5520,  5897,  6270,  6639,  7005,  7366,  7723,  8076,
-    8423,  8765,  9102,  9434,  9760,  10080, 10394, 10702, 11003, 11297, 11585,
-    11866, 12140, 12406, 12665, 12916, 13160, 13395, 13623, 13842, 14053, 14256,
-    14449, 14635, 14811, 14978, 15137, 15286, 15426, 15557, 15679, 15791, 15893,
-    15986, 16069, 16143, 16207, 16261, 16305, 16340, 16364, 16379, 16384, 16384};
-
 #define INVERSE(a) (((uint32_t)1 << 20) / (a))
 #define INVERSES_4(a) INVERSE(a), INVERSE((a) + 1), INVERSE((a) + 2), INVERSE((a) + 3)
 #define INVERSES_16(a) INVERSES_4(a), INVERSES_4((a) + 4), INVERSES_4((a) + 8), INVERSES_4((a) + 12)
@@ -39,7 +30,7 @@ const uint16_t fix_small_inverses[256 - 17] YB_ROM = {
     INVERSES_64(64), INVERSES_64(128), INVERSES_64(192)};
 
 /* Between an entry of a table and the next, greater one: the part has so many bits. */
-static uint32_t between(const uint16_t *entry, uint32_t part, int bits)
+APART uint32_t between(const uint16_t *entry, uint32_t part, int bits)
 {
     uint32_t first = yb_rom_u16(entry);
     uint32_t step = yb_rom_u16(entry + 1) - first;
@@ -119,12 +110,26 @@ uint32_t fix_sqrt(uint64_t a)
     return root;
 }
 
+/* round(16384 sin(i/64 of a right angle)): a polynomial whose coefficients have been found by
+ * trial, so that all of them are right. Products are below 2^31.
+ */
+APART int32_t sine_of(int32_t i)
+{
+    int32_t square = i * i;
+    int32_t sum = 333263 - (square * 142 >> 5);
+    sum = 338638 - (square * sum >> 15);
+    sum = 26353549 - (square * sum >> 7);
+    return (i * sum + 32768) >> 16;
+}
+
 int16_t yb_sin_q14(uint16_t angle_bam)
 {
-    uint32_t quarter = angle_bam & 0x3fff;
+    int32_t quarter = angle_bam & 0x3fff;
     if ((angle_bam & 0x4000) != 0)
         quarter = 0x4000 - quarter;
-    int32_t value = (int32_t)between(&sine_table[quarter >> 8], quarter & 255, 8);
+    int32_t first = sine_of(quarter >> 8);
+    int32_t step = sine_of((quarter >> 8) + 1) - first;
+    int32_t value = first + ((step * (quarter & 255) + 128) >> 8);
     return (int16_t)((angle_bam & 0x8000) != 0 ? -value : value);
 }
 

@@ -35,11 +35,11 @@ const yb_contour_t *line_after(const yb_load_t *load, const yb_contour_t *line)
 static void look_beyond(yb_load_t *load)
 {
     for (int r = 0; r < load->region_count; r++)
-        load->way_to[r] = NOWHERE;
+        load->scratch->way_to[r] = NOWHERE;
     const yb_contour_t *line = NULL;
     while ((line = line_after(load, line)) != NULL) {
         int beyond = line->left == load->here ? line->right : line->left;
-        load->way_to[beyond] = (yb_index_t)number_of(load, line);
+        load->scratch->way_to[beyond] = (yb_index_t)number_of(load, line);
     }
     /* From line to line, to and fro: lines that lie in a row are in the code in a row, mostly. */
     bool changed = true;
@@ -49,8 +49,8 @@ static void look_beyond(yb_load_t *load)
             line = &load->contour[back ? load->contour_count - 1 - k : k];
             if (!is_line(line) || bounds(load, line))
                 continue;
-            yb_index_t *left = &load->way_to[line->left];
-            yb_index_t *right = &load->way_to[line->right];
+            yb_index_t *left = &load->scratch->way_to[line->left];
+            yb_index_t *right = &load->scratch->way_to[line->right];
             if (*left == *right)
                 continue;
             if (*left == NOWHERE)
@@ -64,7 +64,7 @@ static void look_beyond(yb_load_t *load)
 
 const yb_contour_t *line_before(const yb_load_t *load, const yb_contour_t *spot)
 {
-    int line = load->way_to[spot->left];
+    int line = load->scratch->way_to[spot->left];
     bool here = is_line(spot) || spot->left == load->here;
     return here || line == NOWHERE ? NULL : &load->contour[line];
 }
@@ -79,7 +79,7 @@ static const yb_contour_t *ruler_of(const yb_load_t *load, int p, const yb_conto
 {
     int32_t z = height_at(load, p);
     const yb_contour_t *ruler = NULL;
-    const yb_contour_t *end = load->contour + all_contours(load);
+    const yb_contour_t *end = load->contour + load->all_contours;
     int32_t rise = 0;
     int32_t run = 1;
     for (const yb_contour_t *spot = load->contour; spot < end; spot++) {
@@ -126,11 +126,11 @@ static void fan(yb_load_t *load, const yb_contour_t *line)
     for (int p = line->first; p < end; p++) {
         const yb_contour_t *ruler = ruler_of(load, p, NULL);
         bool linked = ruler != NULL && !by_a_ridge(load, p, ruler->first);
-        load->wish[p] = (yb_index_t)(linked ? ruler->first : p);
+        load->scratch->wish[p] = (yb_index_t)(linked ? ruler->first : p);
     }
     for (int p = line->first; p < end; p++) {
-        if (load->wish[p] != p)
-            mesh_link(load, p, load->wish[p]);
+        if (load->scratch->wish[p] != p)
+            mesh_link(load, p, load->scratch->wish[p]);
     }
 }
 
@@ -139,13 +139,17 @@ static void fan(yb_load_t *load, const yb_contour_t *line)
 /* Distance of point p from the segment ab, in 1/64 steps. */
 static int32_t distance(const yb_load_t *load, int p, int a, int b)
 {
-    int32_t along = dot(load, a, b, p);
-    int32_t square = dot(load, a, b, b);
+    int32_t ab[3];
+    int32_t ap[3];
+    find_way(load, a, b, ab);
+    find_way(load, a, p, ap);
+    int32_t along = ab[0] * ap[0] + ab[1] * ap[1];
+    int32_t square = ab[0] * ab[0] + ab[1] * ab[1];
     if (along <= 0)
         return edge_length(load, a, p) >> 2;
     if (along >= square)
         return edge_length(load, b, p) >> 2;
-    return fix_abs(orientation(load, a, b, p)) / (int32_t)fix_sqrt((uint32_t)square);
+    return fix_abs(ab[0] * ap[1] - ab[1] * ap[0]) / (int32_t)fix_sqrt((uint32_t)square);
 }
 
 /* A search among the points of the region's lines of height h. */
@@ -208,21 +212,11 @@ static void link_down(yb_load_t *load, int p, const yb_contour_t *line)
     }
 }
 
-/* Does a closed line go round counter-clockwise? Twice its area is within 2^30, though partial sums
- * may wrap.
- */
-static bool turns_left(const yb_load_t *load, const yb_contour_t *line)
-{
-    uint32_t area = 0;
-    for (int k = 1; k + 1 < line->count; k++)
-        area += (uint32_t)orientation(load, line->first, line->first + k, line->first + k + 1);
-    return (int32_t)area > 0;
-}
-
-/* Does the line lie round the region, or does it go from frame to frame? */
+/* Does the line go from frame to frame, or lie round the region? Then it leads to the frame. */
 static bool is_outer(const yb_load_t *load, const yb_contour_t *line)
 {
-    return line->open || (line->left == load->here) == turns_left(load, line);
+    int outside = region_at(load, load->corner[0]);
+    return is_open(load, line) || load->scratch->way_to[outside] == number_of(load, line);
 }
 
 /* All rules of a region, of which this is the first line. */
@@ -247,7 +241,7 @@ static bool apply_rules(yb_load_t *load, const yb_contour_t *line)
 
 bool links_add(yb_load_t *load)
 {
-    load->first_saddle = load->map->vertex_count;
+    load->first_saddle = load->vertex_count;
     /* Regions in the order of the lines that bound them, the left one first. */
     for (int side = 0; side < 2 * load->contour_count; side++) {
         load->here = region_beside(load, side);

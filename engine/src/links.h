@@ -12,12 +12,6 @@ enum {
     NOWHERE = YB_MAX_CONTOURS /* no line leads there */
 };
 
-/* Spot heights: those of the code and those that were added. */
-static inline int all_contours(const yb_load_t *load)
-{
-    return load->contour_count + load->summit_count;
-}
-
 static inline bool is_line(const yb_contour_t *contour)
 {
     return contour->count > 1;

@@ -29,8 +29,7 @@ int region_at(const yb_load_t *load, int v)
 
 int origin_of(const yb_load_t *load, half_t e)
 {
-    const yb_index_t *corner = load->map->triangle[0]; /* three a triangle, in a row */
-    return corner[e - triangle_of(e)];
+    return load->corners[e - triangle_of(e)];
 }
 
 int end_of(const yb_load_t *load, half_t e)
@@ -62,7 +61,7 @@ void set_entry(yb_load_t *load, half_t e, int entry)
 
 half_t half_at(const yb_load_t *load, int t, int v)
 {
-    const yb_index_t *corner = load->map->triangle[t];
+    const yb_index_t *corner = &load->corners[3 * t];
     return 4 * t + (corner[0] == v ? 0 : corner[1] == v ? 1 : 2);
 }
 
@@ -122,6 +121,11 @@ bool on_frame(const yb_load_t *load, const yb_vertex_t *v)
     return v->x_q8 == 0 || v->y_q8 == 0 || v->x_q8 == map->east_q8 || v->y_q8 == map->north_q8;
 }
 
+bool is_open(const yb_load_t *load, const yb_contour_t *contour)
+{
+    return on_frame(load, vertex_of(load, contour->first));
+}
+
 void find_way(const yb_load_t *load, int a, int b, int32_t way[3])
 {
     const yb_vertex_t *v = vertex_of(load, a);
@@ -129,15 +133,6 @@ void find_way(const yb_load_t *load, int a, int b, int32_t way[3])
     way[0] = fix_minus(w->x_q8, v->x_q8) >> 2;
     way[1] = fix_minus(w->y_q8, v->y_q8) >> 2;
     way[2] = w->z_q8 - v->z_q8;
-}
-
-int32_t dot(const yb_load_t *load, int o, int a, int b)
-{
-    int32_t to_a[3];
-    int32_t to_b[3];
-    find_way(load, o, a, to_a);
-    find_way(load, o, b, to_b);
-    return to_a[0] * to_b[0] + to_a[1] * to_b[1];
 }
 
 int32_t area_of(const yb_vertex_t *a, const yb_vertex_t *b, const yb_vertex_t *c)
@@ -157,6 +152,17 @@ int32_t orientation(const yb_load_t *load, int a, int b, int c)
 int32_t side_of(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
     return area_of(vertex_of(load, origin_of(load, e)), vertex_of(load, end_of(load, e)), p);
+}
+
+void find_angle(const yb_load_t *load, half_t e, angle_t *angle)
+{
+    int o = apex_of(load, e);
+    int32_t a[3];
+    int32_t b[3];
+    find_way(load, o, origin_of(load, e), a);
+    find_way(load, o, end_of(load, e), b);
+    angle->area = a[0] * b[1] - a[1] * b[0];
+    angle->dot = a[0] * b[0] + a[1] * b[1];
 }
 
 int32_t edge_length(const yb_load_t *load, int a, int b)
@@ -203,10 +209,9 @@ void find_middle(const yb_load_t *load, half_t e, yb_vertex_t *middle)
 
 bool mesh_add_vertex(yb_load_t *load, const yb_vertex_t *at)
 {
-    yb_map_t *map = load->map;
-    if (map->vertex_count >= load->vertices_promised)
+    if (load->vertex_count >= load->vertices_promised)
         return false;
-    yb_vertex_t *v = &load->vertex[map->vertex_count++];
+    yb_vertex_t *v = &load->vertex[load->vertex_count++];
     v->x_q8 = at->x_q8;
     v->y_q8 = at->y_q8;
     v->z_q8 = at->z_q8;

@@ -129,15 +129,13 @@ int32_t height_at(const yb_load_t *load, int v);
 
 bool on_frame(const yb_load_t *load, const yb_vertex_t *v);
 
+/* See yb_contour_is_open. */
+bool is_open(const yb_load_t *load, const yb_contour_t *contour);
+
 /* From vertex a to vertex b: x and y in 1/64 step, z in q8. Coordinates are multiples of 4 below
  * 2^16: within ±2^14.
  */
 void find_way(const yb_load_t *load, int a, int b, int32_t way[3]);
-
-/* Product of the ways from o to a and from o to b in the plan, in square 1/64 steps: positive where
- * the angle between them is acute, the square of the distance if a is b. Within ±2^29.
- */
-int32_t dot(const yb_load_t *load, int o, int a, int b);
 
 /* Twice the area of abc in square 1/64 steps, positive when counter-clockwise. Coordinates are
  * multiples of 4 below 2^16, so differences are within ±2^14 and the result within ±2^29.
@@ -148,6 +146,16 @@ int32_t orientation(const yb_load_t *load, int a, int b, int c);
 
 /* The same of a half and a point: positive if the point lies to its left. */
 int32_t side_of(const yb_load_t *load, half_t e, const yb_vertex_t *p);
+
+/* What the angle at the apex of a half is like, which is between the ways to its ends: the area
+ * that they span, which is twice the triangle's, and their product, positive where the angle is
+ * acute. Its cotangent is the quotient. Both within ±2^29.
+ */
+typedef struct {
+    int32_t area, dot;
+} angle_t;
+
+void find_angle(const yb_load_t *load, half_t e, angle_t *angle);
 
 /* Length from vertex to vertex, q8: see fix_length. */
 int32_t edge_length(const yb_load_t *load, int a, int b);
@@ -178,8 +186,8 @@ static inline int lower_end(const yb_load_t *load, half_t e)
 
 /* --- Stages ----------------------------------------------------------------------------------- */
 
-/* The first three answer false where the contours are corrupt, the others where the mesh has no
- * room for what they add.
+/* The first two answer false where the contours are corrupt, those that add to the mesh where it
+ * has no room for that.
  */
 
 /* Checks the contours against the frame, tells open from closed ones, adds the corners that no
@@ -193,7 +201,7 @@ YB_MUST_CHECK bool border_close(yb_load_t *load);
 YB_MUST_CHECK bool mesh_triangulate(yb_load_t *load);
 
 /* The regions between the contours, and on which sides of each contour they lie (SPEC 2.3). */
-YB_MUST_CHECK bool regions_find(yb_load_t *load);
+void regions_find(yb_load_t *load);
 
 /* Section 3: a summit, or the bottom of a pit, for every region of one height (SPEC 2.4). */
 YB_MUST_CHECK bool summits_add(yb_load_t *load);

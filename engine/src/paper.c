@@ -142,7 +142,7 @@ static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
     if (!add_point(load, x, y, load->vertex[contour->first].z_q8))
         return YB_ERR_CORRUPT;
     load->state = STEP;
-    if (load->map->vertex_count < contour->first + contour->count)
+    if (load->vertex_count < contour->first + contour->count)
         return YB_MORE;
     load->at++;
     load->state = HEIGHT;
@@ -151,7 +151,7 @@ static yb_status_t take_point(yb_load_t *load, int32_t x, int32_t y)
 
 static yb_status_t take_height(yb_load_t *load, uint32_t coded)
 {
-    int32_t *height = &load->vertex[load->map->vertex_count].z_q8;
+    int32_t *height = &load->vertex[load->vertex_count].z_q8;
     *height = (int32_t)coded;
     load->state = START;
     return settle_height(load->map, 0, height) ? YB_MORE : YB_ERR_CORRUPT;
@@ -165,7 +165,7 @@ static int32_t difference(const yb_load_t *load, uint32_t six)
 
 static yb_status_t take_step(yb_load_t *load, uint32_t twelve)
 {
-    const yb_vertex_t *last = &load->vertex[load->map->vertex_count - 1];
+    const yb_vertex_t *last = &load->vertex[load->vertex_count - 1];
     return take_point(load, (last->x_q8 >> 8) + difference(load, twelve >> 6),
                       (last->y_q8 >> 8) + difference(load, twelve));
 }

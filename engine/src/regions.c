@@ -1,14 +1,15 @@
 /* The regions between the contours: what the triangles fall into when the mesh is cut along them.
  *
  * Closed contours and frame-to-frame lines cut the square into regions whose adjacency is a tree,
- * each contour being an edge of it. The triangulation already knows: triangles that share an edge
- * which no contour runs along belong together. Union-find in one array does it in two passes.
+ * each line being an edge of it: it cuts one region off, as lines neither cross nor touch. The
+ * triangulation already knows: triangles that share an edge which no contour runs along belong
+ * together. Union-find in one array does it in two passes.
  */
 #include "mesh.h"
 
 static int root_of(yb_load_t *load, int t)
 {
-    yb_triangle_t *root = load->root;
+    yb_triangle_t *root = load->scratch->root;
     while ((int)root[t] != t) {
         root[t] = root[root[t]]; /* halve the path */
         t = (int)root[t];
@@ -16,11 +17,11 @@ static int root_of(yb_load_t *load, int t)
     return t;
 }
 
-bool regions_find(yb_load_t *load)
+void regions_find(yb_load_t *load)
 {
     const int count = (int)load->map->triangle_count;
     for (int t = 0; t < count; t++)
-        load->root[t] = (yb_triangle_t)t;
+        load->scratch->root[t] = (yb_triangle_t)t;
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         int t = triangle_of(e);
         int u = entry_of(load, e);
@@ -29,17 +30,17 @@ bool regions_find(yb_load_t *load)
         /* The smaller index wins: a root is the first triangle of its region. */
         int a = root_of(load, t);
         int b = root_of(load, u);
-        load->root[fix_max(a, b)] = (yb_triangle_t)fix_min(a, b);
+        load->scratch->root[fix_max(a, b)] = (yb_triangle_t)fix_min(a, b);
     }
     /* From roots to numbers: a triangle's parent has a smaller index, so it is done. */
     load->region_count = 0;
     for (int t = 0; t < count; t++) {
-        int parent = (int)load->root[t];
+        int parent = (int)load->scratch->root[t];
         load->region[t] = load->region[parent];
         if (parent == t)
             load->region[t] = (yb_index_t)load->region_count++;
     }
-    int lines = 0;
+    load->all_contours = load->contour_count;
     for (int i = 0; i < load->contour_count; i++) {
         yb_contour_t *contour = &load->contour[i];
         int a = contour->first;
@@ -48,11 +49,8 @@ bool regions_find(yb_load_t *load)
             half_t e = spoke_to(load, a, a + 1);
             contour->left = (yb_index_t)region_of(load, e);
             contour->right = (yb_index_t)region_of(load, twin_of(load, e));
-            lines++;
         }
     }
-    /* Lines that neither cross nor touch cut one region off each: true of every mesh made here. */
-    return load->region_count == lines + 1;
 }
 
 int region_beside(const yb_load_t *load, int k)

@@ -163,12 +163,13 @@ static int32_t log2_roughness(const yb_load_t *load, int32_t hurst_q8)
         if ((entry_of(load, e) & NO_TRIANGLE) < triangle_of(e))
             continue; /* each edge once; those of the frame too */
         edges++;
-        uint32_t rise = (uint32_t)fix_abs(rise_of(load, e));
+        /* In steps, of which a square has 2^12 square 1/64 steps. */
+        int32_t way[3];
+        find_way(load, origin_of(load, e), end_of(load, e), way);
+        uint32_t rise = (uint32_t)fix_abs(way[2]);
         if (rise == 0)
             continue;
-        int b = end_of(load, e);
-        /* In steps, of which a square has 2^12 square 1/64 steps. */
-        int32_t square = fix_log2_q11((uint32_t)dot(load, origin_of(load, e), b, b)) - 12 * ONE_Q11;
+        int32_t square = fix_log2_q11((uint32_t)(way[0] * way[0] + way[1] * way[1])) - 12 * ONE_Q11;
         int32_t term = 2 * fix_log2_q11(rise) - ((hurst_q8 * square) >> 8);
         sum += term < 24 * ONE_Q11 ? fix_exp2_q11(term + 8 * ONE_Q11)
                                    : (uint64_t)fix_exp2_q11(term) << 8;

@@ -65,7 +65,8 @@ static int32_t find_crossing(const yb_load_t *load, const yb_contour_t *line, co
     int p = line->first + line->count - 1;
     for (int k = 0; k < line->count; k++) {
         int q = line->first + k;
-        int32_t at = k == 0 && line->open ? -1 : crossing(load, gap->peak[0], gap->peak[1], p, q);
+        int32_t at =
+            k == 0 && is_open(load, line) ? -1 : crossing(load, gap->peak[0], gap->peak[1], p, q);
         if (at > gap->leaves && at < gap->enters && (found < 0 || (at > found) == last))
             found = at;
         p = q;
@@ -156,10 +157,12 @@ static uint16_t part_way(uint16_t a, uint16_t b, int32_t at_q16)
     return (uint16_t)((a + way + 32) & ~(int32_t)63);
 }
 
-/* Two peaks behind two lines of the level, and how far they are apart. */
+/* Two peaks behind two lines of the level: how far they are apart, and the numbers of the two spot
+ * heights, the lower one's times 65536 and the other's.
+ */
 typedef struct {
-    int spot[2]; /* heights */
     int32_t apart;
+    uint32_t spots;
 } pair_t;
 
 /* The link point of two peaks (5.1): where their slopes meet. With the segment between them leaving
@@ -171,9 +174,9 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair)
 {
     gap_t gap;
     for (int k = 0; k < 2; k++) {
-        int spot = pair->spot[k];
+        int spot = k == 0 ? (int)(pair->spots >> 16) : (int)(pair->spots & 0xffff);
         gap.peak[k] = load->contour[spot].first;
-        gap.line[k] = &load->contour[load->wish[spot]];
+        gap.line[k] = &load->contour[load->scratch->wish[spot]];
     }
     if (!find_gap(load, &gap))
         return YB_MORE;
@@ -192,7 +195,7 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair)
     half_t place = find_between(load, &link, &gap);
     if (place == NO_HALF)
         return YB_MORE;
-    int m = load->map->vertex_count;
+    int m = load->vertex_count;
     if (!mesh_insert(load, place, &link))
         return YB_ERR_LIMIT;
     mesh_legalise(load, m);
@@ -221,14 +224,16 @@ static int peak_behind(const yb_load_t *load, const yb_contour_t *spot)
 static bool next_pair(const yb_load_t *load, pair_t *pair)
 {
     pair_t next = {.apart = INT32_MAX};
-    for (int a = 0; a < all_contours(load); a++) {
-        for (int b = a + 1; b < all_contours(load) && load->group[a] != NOWHERE; b++) {
-            if (load->group[b] == NOWHERE || load->group[a] == load->group[b])
+    for (int a = 0; a < load->all_contours; a++) {
+        for (int b = a + 1; b < load->all_contours && load->scratch->group[a] != NOWHERE; b++) {
+            if (load->scratch->group[b] == NOWHERE ||
+                load->scratch->group[a] == load->scratch->group[b])
                 continue;
             int32_t apart = edge_length(load, load->contour[a].first, load->contour[b].first);
-            bool after = a > pair->spot[0] || (a == pair->spot[0] && b > pair->spot[1]);
-            if (apart < next.apart && (apart > pair->apart || (apart == pair->apart && after)))
-                next = (pair_t){{a, b}, apart};
+            uint32_t spots = (uint32_t)a << 16 | (uint32_t)b;
+            if (apart < next.apart &&
+                (apart > pair->apart || (apart == pair->apart && spots > pair->spots)))
+                next = (pair_t){apart, spots};
         }
     }
     *pair = next;
@@ -237,9 +242,9 @@ static bool next_pair(const yb_load_t *load, pair_t *pair)
 
 static void join_groups(yb_load_t *load, yb_index_t from, yb_index_t to)
 {
-    for (int s = 0; s < all_contours(load); s++) {
-        if (load->group[s] == from)
-            load->group[s] = to;
+    for (int s = 0; s < load->all_contours; s++) {
+        if (load->scratch->group[s] == from)
+            load->scratch->group[s] = to;
     }
 }
 
@@ -251,8 +256,9 @@ static bool join_level(yb_load_t *load)
 {
     pair_t pair = {.apart = -1};
     int refusals = 0;
-    for (int s = 0; s < all_contours(load); s++)
-        load->wish[s] = load->group[s] = (yb_index_t)peak_behind(load, &load->contour[s]);
+    for (int s = 0; s < load->all_contours; s++)
+        load->scratch->wish[s] = load->scratch->group[s] =
+            (yb_index_t)peak_behind(load, &load->contour[s]);
     while (refusals < MOST_REFUSALS && next_pair(load, &pair)) {
         yb_status_t status = join(load, &pair);
         if (status < 0)
@@ -260,7 +266,8 @@ static bool join_level(yb_load_t *load)
         if (status == YB_MORE)
             refusals++;
         else
-            join_groups(load, load->group[pair.spot[0]], load->group[pair.spot[1]]);
+            join_groups(load, load->scratch->group[pair.spots >> 16],
+                        load->scratch->group[pair.spots & 0xffff]);
     }
     return true;
 }

@@ -12,6 +12,8 @@
  * Heights: from where a branch began it falls (or rises) evenly towards its dead end, the longest
  * way first, or, where two branches meet, to half way between the heights: a saddle.
  */
+#include <string.h>
+
 #include "mesh.h"
 
 /* An edge that may be a bridge, and what its middle is reached from. */
@@ -32,7 +34,7 @@ static bool is_bridge(const yb_load_t *load, const bridge_t *bridge)
 static bool split_bridge(yb_load_t *load, const bridge_t *bridge)
 {
     yb_vertex_t middle;
-    int m = load->map->vertex_count;
+    int m = load->vertex_count;
     yb_branch_t *branch = &load->branch[m];
     find_middle(load, bridge->half, &middle);
     if (!mesh_insert(load, bridge->half, &middle))
@@ -40,7 +42,7 @@ static bool split_bridge(yb_load_t *load, const bridge_t *bridge)
     branch->parent = (yb_index_t)bridge->parent;
     branch->other = (yb_index_t)bridge->other;
     branch->end = (yb_index_t)m;
-    branch->grown = false;
+    branch->grown = 0;
     return true;
 }
 
@@ -112,15 +114,21 @@ static bool look_across(const yb_load_t *load, bridge_t *bridge, bool begins)
         q = apex_of(load, twin);
     else if (begins && (bridge->key & 0xffff) >= load->point_count)
         return false;
-    /* The lower number first; but flat ground last. */
-    bool swap = begins && (height_at(load, p) == h || (q < p && height_at(load, q) != h));
-    bridge->parent = swap ? q : p;
-    bridge->other = swap ? p : q;
     /* Points of this stage still have their edge's height. */
-    int32_t up = height_at(load, bridge->parent) - h;
-    int32_t up_other = height_at(load, bridge->other) - h;
+    int32_t up = height_at(load, p) - h;
+    int32_t up_other = height_at(load, q) - h;
+    bridge->parent = p;
+    bridge->other = q;
+    /* The lower number first; but flat ground last. */
+    if (begins && (up == 0 || (q < p && up_other != 0))) {
+        bridge->parent = q;
+        bridge->other = p;
+        int32_t up_q = up_other;
+        up_other = up;
+        up = up_q;
+    }
     if (up_other == 0 && bridge->other < load->first_skeleton)
-        bridge->other = load->map->vertex_count;
+        bridge->other = load->vertex_count;
     return !begins || (up != 0 && (up_other == 0 || (up ^ up_other) >= 0));
 }
 
@@ -150,12 +158,12 @@ static bool split_bridges(yb_load_t *load, int v)
 {
     bridge_t bridge;
     while (find_bridge(load, v, &bridge)) {
-        bool begins = v < load->first_skeleton;
-        int m = load->map->vertex_count;
+        int m = load->vertex_count;
+        int parent = bridge.parent;
         if (!split_bridge(load, &bridge))
             return false;
-        uint32_t weight = steepness(load, begins ? m : beginning_of(load, v));
-        load->way[m] = add_way(load, begins ? 0 : load->way[v], weight, bridge.parent, m);
+        uint32_t weight = steepness(load, beginning_of(load, m));
+        load->scratch->way[m] = add_way(load, load->scratch->way[parent], weight, parent, m);
     }
     return true;
 }
@@ -172,17 +180,17 @@ static bool grow(yb_load_t *load)
     for (;;) {
         int next = -1;
         uint32_t least = 0;
-        for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
-            if (!load->branch[v].grown && (next < 0 || load->way[v] < least)) {
+        for (int v = load->first_skeleton; v < load->vertex_count; v++) {
+            if (!load->branch[v].grown && (next < 0 || load->scratch->way[v] < least)) {
                 next = v;
-                least = load->way[v];
+                least = load->scratch->way[v];
             }
         }
         if (next < 0)
             return true;
         if (!split_bridges(load, next))
             return false;
-        load->branch[next].grown = true;
+        load->branch[next].grown = 1;
     }
 }
 
@@ -202,19 +210,18 @@ static uint32_t way_to_contour(const yb_load_t *load, int v)
  */
 static void measure_ways(yb_load_t *load)
 {
-    for (int v = load->first_skeleton; v < load->map->vertex_count; v++)
-        load->way[v] = 0;
-    for (int v = load->map->vertex_count - 1; v >= load->first_skeleton; v--) {
+    memset(load->scratch->way, 0, sizeof load->scratch->way);
+    for (int v = load->vertex_count - 1; v >= load->first_skeleton; v--) {
         const yb_branch_t *branch = &load->branch[v];
-        if (load->way[v] == 0 && !meets(load, v))
-            load->way[v] = way_to_contour(load, v);
+        if (load->scratch->way[v] == 0 && !meets(load, v))
+            load->scratch->way[v] = way_to_contour(load, v);
         for (int k = 0; k < 2; k++) {
             int p = k == 0 ? branch->parent : branch->other;
             if (p == v || p < load->first_skeleton || meets(load, p))
                 continue;
-            uint32_t way = load->way[v] + (uint32_t)edge_length(load, p, v);
-            if (way > load->way[p]) {
-                load->way[p] = way;
+            uint32_t way = load->scratch->way[v] + (uint32_t)edge_length(load, p, v);
+            if (way > load->scratch->way[p]) {
+                load->scratch->way[p] = way;
                 load->branch[p].end = (yb_index_t)(meets(load, v)     ? v
                                                    : branch->end == v ? p
                                                                       : branch->end);
@@ -247,7 +254,7 @@ static int32_t height_on(const yb_load_t *load, int v)
     int32_t from = height_at(load, branch->parent);
     int32_t to = height_at(load, branch->end); /* h, if that is v itself */
     int32_t way = edge_length(load, branch->parent, v);
-    int32_t rest = (int32_t)load->way[v];
+    int32_t rest = (int32_t)load->scratch->way[v];
     if (meets(load, v)) {
         from = way_back(load, v, branch->parent, &way);
         to = way_back(load, v, branch->other, &rest);
@@ -261,13 +268,14 @@ static int32_t height_on(const yb_load_t *load, int v)
 
 bool skeleton_add(yb_load_t *load)
 {
-    load->first_skeleton = load->map->vertex_count;
+    load->first_skeleton = load->vertex_count;
+    memset(load->scratch->way, 0, sizeof load->scratch->way);
     if (!grow(load))
         return false;
     measure_ways(load);
     /* Meeting points first: slopes end there. */
     for (int k = 0; k < 2; k++) {
-        for (int v = load->first_skeleton; v < load->map->vertex_count; v++) {
+        for (int v = load->first_skeleton; v < load->vertex_count; v++) {
             if (meets(load, v) == (k == 0))
                 load->vertex[v].z_q8 = height_on(load, v);
         }

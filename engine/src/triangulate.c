@@ -26,22 +26,27 @@ static void take_facet(const yb_load_t *load, half_t e, facet_t *facet)
     }
 }
 
-/* Makes it triangle t, at which those across then look back, with the same marks. Of some facets
- * that look at each other the last one puts right what the earlier ones could not know.
+/* Sets what lies across a half, and makes that look back, with the same mark. */
+static void link_half(yb_load_t *load, half_t e, int entry)
+{
+    int u = entry & NO_TRIANGLE;
+    set_entry(load, e, entry);
+    if (u != NO_TRIANGLE)
+        set_entry(load, half_at(load, u, end_of(load, e)), triangle_of(e) | (entry & ENTRY_MARK));
+}
+
+/* Makes it triangle t. Of some facets that look at each other the last one puts right what the
+ * earlier ones could not know.
  */
 static void put_facet(yb_load_t *load, int t, const facet_t *facet)
 {
-    yb_across_t word = 0;
-    for (int k = 2; k >= 0; k--) {
-        int entry = facet->across[k];
-        int u = entry & NO_TRIANGLE;
-        word = word << ENTRY_BITS | (yb_across_t)entry;
-        load->map->triangle[t][k] = (yb_index_t)facet->v[k];
+    for (int k = 0; k < 3; k++) {
+        load->corners[3 * t + k] = (yb_index_t)facet->v[k];
         load->star[facet->v[k]] = (yb_triangle_t)t;
-        if (u != NO_TRIANGLE)
-            set_entry(load, half_at(load, u, facet->v[next3(k)]), t | (entry & ENTRY_MARK));
     }
-    load->across[t] = word;
+    load->across[t] = 0;
+    for (int k = 0; k < 3; k++)
+        link_half(load, 4 * t + k, facet->across[k]);
 }
 
 /* Replaces the common edge ab of the triangle of e and its neighbour by the other diagonal dc of
@@ -69,37 +74,23 @@ static void flip(yb_load_t *load, half_t e)
     put_facet(load, u, &q);
 }
 
-/* Does d lie inside the circle through the corners of a triangle? Above 0: yes, 0: on it.
- * Differences in 1/64 steps are within 2^14, squares of length 2^29, areas 2^29: each of the three
- * terms is below 2^58.
+/* Is an edge to be flipped? It is if the circle through the corners of either triangle holds the
+ * other one's apex: if the angles at the two of them are more than two right ones together, which
+ * is what the sum of their cotangents tells. Products are below 2^58.
  */
-static int64_t in_circle(const yb_load_t *load, const yb_index_t corner[3], int d)
-{
-    int32_t way[3][3];
-    for (int i = 0; i < 3; i++)
-        find_way(load, d, corner[i], way[i]);
-    int64_t sum = 0;
-    const int32_t *b = way[1];
-    const int32_t *c = way[2];
-    for (int i = 0; i < 3; i++) {
-        const int32_t *a = way[i];
-        sum += fix_wide(a[0] * a[0] + a[1] * a[1], b[0] * c[1] - c[0] * b[1]);
-        b = c;
-        c = a;
-    }
-    return sum;
-}
-
-/* Is an edge to be flipped? */
 static bool illegal(const yb_load_t *load, half_t e)
 {
     if (entry_of(load, e) >= NO_TRIANGLE) /* the frame, or marked */
         return false;
-    int d = apex_of(load, twin_of(load, e));
-    int64_t inside = in_circle(load, load->map->triangle[triangle_of(e)], d);
-    if (inside != 0)
-        return inside > 0;
-    return fix_min(apex_of(load, e), d) < lower_end(load, e);
+    half_t twin = twin_of(load, e);
+    angle_t here;
+    angle_t there;
+    find_angle(load, e, &here);
+    find_angle(load, twin, &there);
+    int64_t outside = fix_add(fix_wide(here.dot, there.area), there.dot, here.area);
+    if (outside != 0)
+        return outside < 0;
+    return fix_min(apex_of(load, e), apex_of(load, twin)) < lower_end(load, e);
 }
 
 /* Legalises all edges opposite the new vertex p: once round it, counter-clockwise. A flip gives p
@@ -119,8 +110,8 @@ void mesh_legalise(yb_load_t *load, int p)
     } while (e != NO_HALF && end_of(load, e) != first_end);
 }
 
-/* Finds the place of p by walking towards it from the triangle that begins with e. In a Delaunay
- * triangulation such a walk never goes in circles.
+/* Finds the place of p by walking towards it from the triangle that begins with e; NO_HALF: there
+ * is a vertex. In a Delaunay triangulation such a walk never goes in circles.
  */
 static half_t locate(const yb_load_t *load, half_t e, const yb_vertex_t *p)
 {
@@ -132,8 +123,11 @@ static half_t locate(const yb_load_t *load, half_t e, const yb_vertex_t *p)
             e = place - 3;
             continue;
         }
-        if (side == 0)
+        if (side == 0) {
+            if (!is_inside(place))
+                return NO_HALF;
             place = e;
+        }
         e++;
     }
     return place;
@@ -168,11 +162,19 @@ static void split(yb_load_t *load, half_t place, int p)
 
 bool mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t *at)
 {
-    int p = load->map->vertex_count;
+    int p = load->vertex_count;
     if (!mesh_add_vertex(load, at))
         return false;
     split(load, place, p);
     return true;
+}
+
+static bool is_corner(const yb_load_t *load, int p)
+{
+    int k = 0;
+    while (k < 4 && load->corner[k] != p)
+        k++;
+    return k < 4;
 }
 
 static bool insert_all(yb_load_t *load)
@@ -188,19 +190,13 @@ static bool insert_all(yb_load_t *load)
     put_facet(load, 1, &half);
     mesh_legalise(load, corner[1]); /* the diagonal */
     int t = 0;
-    for (int p = 0; p < map->vertex_count; p++) {
-        const yb_vertex_t *at = vertex_of(load, p);
-        half_t place = locate(load, 4 * t, at);
-        bool is_corner = false; /* of the frame: it is there */
-        for (half_t e = 4 * triangle_of(place); !is_inside(e); e++) {
-            int v = origin_of(load, e);
-            if (v == p)
-                is_corner = true;
-            else if (same_place(vertex_of(load, v), at))
-                return false;
-        }
-        if (is_corner)
+    /* Those of the frame's corners that no line ends at are the last vertices. */
+    for (int p = 0; p < load->point_count; p++) {
+        if (is_corner(load, p))
             continue;
+        half_t place = locate(load, 4 * t, vertex_of(load, p));
+        if (place == NO_HALF)
+            return false;
         split(load, place, p);
         mesh_legalise(load, p);
         t = (int)load->star[p];
@@ -244,19 +240,6 @@ static half_t edge_to(const yb_load_t *load, half_t e, int b)
         return e;
     e = last_of(e);
     return origin_of(load, e) == b ? e : NO_HALF;
-}
-
-/* The spoke of a on whose left the segment ab leaves, or runs along an edge. NO_HALF: ab runs
- * through another vertex.
- */
-static half_t towards(const yb_load_t *load, int a, int b)
-{
-    for (half_t e = first_spoke(load, a); e != NO_HALF; e = spoke_after(load, e)) {
-        if (edge_to(load, e, b) != NO_HALF || (orientation(load, a, end_of(load, e), b) > 0 &&
-                                               orientation(load, a, b, apex_of(load, e)) > 0))
-            return e;
-    }
-    return NO_HALF;
 }
 
 /* Walks along the channel of ab, which is entered from a across e. To `narrow` it takes one vertex
@@ -305,17 +288,21 @@ static bool walk_channel(yb_load_t *load, half_t e, int a, int b, bool narrow)
 static bool reach(yb_load_t *load, int a, int b, bool force)
 {
     for (;;) {
-        half_t e = towards(load, a, b);
-        if (e == NO_HALF)
-            return false;
-        half_t edge = edge_to(load, e, b);
-        if (edge != NO_HALF) {
-            if (force)
-                mark(load, edge);
-            return true;
+        half_t e = first_spoke(load, a);
+        for (; e != NO_HALF; e = spoke_after(load, e)) {
+            half_t edge = edge_to(load, e, b);
+            if (edge != NO_HALF) {
+                if (force)
+                    mark(load, edge);
+                return true;
+            }
+            /* Does the segment leave on the left of this spoke? */
+            if (orientation(load, a, end_of(load, e), b) > 0 &&
+                orientation(load, a, b, apex_of(load, e)) > 0)
+                break;
         }
-        if (!walk_channel(load, next_of(e), a, b, force))
-            return false;
+        if (e == NO_HALF || !walk_channel(load, next_of(e), a, b, force))
+            return false; /* another vertex is in the way, or a marked edge */
         if (!force)
             return true;
     }
@@ -341,7 +328,8 @@ static bool force_contours(yb_load_t *load)
     for (int i = 0; i < load->contour_count; i++) {
         const yb_contour_t *contour = &load->contour[i];
         int first = contour->first;
-        int edges = contour->open || contour->count == 1 ? contour->count - 1 : contour->count;
+        int edges =
+            is_open(load, contour) || contour->count == 1 ? contour->count - 1 : contour->count;
         for (int k = 1; k <= edges; k++) {
             if (!mesh_force_edge(load, first + k - 1, k < contour->count ? first + k : first))
                 return false;

@@ -220,9 +220,12 @@ static void gather(info_t *info, const char *name, const yb_code_file_t *file)
     find_budget(info);
 }
 
-static const char *kind_of(const yb_contour_t *contour)
+static const char *kind_of(const info_t *info, int contour_at)
 {
-    return contour->count == 1 ? "spot" : contour->open ? "open" : "closed";
+    const yb_contour_t *contour = &info->file->load.contour[contour_at];
+    return contour->count == 1                             ? "spot"
+           : yb_contour_is_open(&info->file->map, contour) ? "open"
+                                                           : "closed";
 }
 
 static void print_tree(const info_t *info)
@@ -246,7 +249,7 @@ static void print_tree(const info_t *info)
         seen[at] = true;
         int contour = info->tree.contour[at];
         printf("  %*sregion %d beyond contour %d (%s, %.0f m)\n", 2 * info->tree.depth[at], "", at,
-               contour, kind_of(&load->contour[contour]), contour_m(info, contour));
+               contour, kind_of(info, contour), contour_m(info, contour));
     }
 }
 
@@ -257,7 +260,7 @@ static void print_contours(const info_t *info)
     for (int i = 0; i < load->contour_count; i++) {
         const yb_contour_t *contour = &load->contour[i];
         const yb_vertex_t *first = &info->file->map.vertex[contour->first];
-        printf("  %3d  %-6s %9.1f m  %3d point%s  from %d,%d", i, kind_of(contour),
+        printf("  %3d  %-6s %9.1f m  %3d point%s  from %d,%d", i, kind_of(info, i),
                contour_m(info, i), contour->count, contour->count == 1 ? " " : "s",
                first->x_q8 >> 8, first->y_q8 >> 8);
         if (contour->count == 1)
@@ -413,7 +416,7 @@ static json_t *json_contours(const info_t *info)
             json_array_append_new(points,
                                   json_pack("[o, o]", json_steps(at->x_q8), json_steps(at->y_q8)));
         }
-        json_array_append_new(list, json_pack("{s:s, s:f, s:i, s:i, s:o}", "kind", kind_of(contour),
+        json_array_append_new(list, json_pack("{s:s, s:f, s:i, s:i, s:o}", "kind", kind_of(info, i),
                                               "height_m", contour_m(info, i), "left", contour->left,
                                               "right", contour->right, "points", points));
     }

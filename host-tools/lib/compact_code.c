@@ -535,7 +535,7 @@ void yb_compact_read(const yb_code_file_t *file, yb_contour_set_t *set)
         yb_step_t point[YB_SET_POINTS];
         for (int k = 0; k < contour->count && k < YB_SET_POINTS; k++)
             point[k] = (yb_step_t){(uint8_t)(vertex[k].x_q8 >> 8), (uint8_t)(vertex[k].y_q8 >> 8)};
-        yb_contour_set_append(set, read_height(file, vertex->z_q8), contour->open, point,
-                              contour->count);
+        yb_contour_set_append(set, read_height(file, vertex->z_q8),
+                              yb_contour_is_open(map, contour), point, contour->count);
     }
 }

@@ -67,7 +67,7 @@ static bool add_polygon(yb_isolines_t *coded, const yb_map_t *map, const yb_cont
 {
     const double step_m = yb_map_cell_m(map) / 256;
     yb_isoline_t line = {.count = contour->count,
-                         .closed = !contour->open,
+                         .closed = !yb_contour_is_open(map, contour),
                          .height_m = yb_map_z_m(map, map->vertex[contour->first].z_q8),
                          .point = malloc(contour->count * sizeof(yb_point2_t))};
     if (line.point == NULL)

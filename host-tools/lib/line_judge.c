@@ -285,8 +285,9 @@ bool yb_line_judge_score(yb_line_judge_t *judge, const uint8_t *code, size_t siz
     int32_t cut_q8 = INT32_MIN;
     for (int i = 0; i < judge->load.contour_count; i++) {
         yb_point2_t point[YB_SET_POINTS];
-        yb_isoline_t coded = {
-            .point = point, .count = contour[i].count, .closed = !contour[i].open};
+        yb_isoline_t coded = {.point = point,
+                              .count = contour[i].count,
+                              .closed = !yb_contour_is_open(map, &contour[i])};
         if (each != NULL)
             each[i] = 0;
         if (coded.count < 2 || coded.count > YB_SET_POINTS)

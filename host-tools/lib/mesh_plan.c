@@ -85,6 +85,11 @@ static int next_point(const yb_contour_t *contour, int k)
     return contour->first + (k + 1) % contour->count;
 }
 
+static int segment_count(const yb_mesh_plan_t *plan, const yb_contour_t *contour)
+{
+    return contour->count - (yb_contour_is_open(plan->map, contour) ? 1 : 0);
+}
+
 /* For each contour how many triangles say that its left side is the lower one, less those that say
  * the right one. NULL: no memory.
  */
@@ -109,8 +114,9 @@ static int32_t *lower_sides(const yb_mesh_plan_t *plan)
             const int falls = (rise < 0) - (rise > 0);
             const yb_contour_t *contour = &load->contour[i];
             /* in the line's direction, or, of two points, not back */
-            const bool along =
-                contour->open ? b == a + 1 : next_point(contour, a - contour->first) == b;
+            const bool along = yb_contour_is_open(map, contour)
+                                   ? b == a + 1
+                                   : next_point(contour, a - contour->first) == b;
             lower[i] += along ? falls : -falls;
         }
     }
@@ -123,7 +129,8 @@ static void draw_ticks(const yb_mesh_plan_t *plan, const yb_contour_t *contour, 
 {
     const double every = 18 / plan->scale, length = 5 / plan->scale;
     double way = every / 2;
-    for (int k = 0; k + (contour->open ? 1 : 0) < contour->count; k++) {
+    const int segments = segment_count(plan, contour);
+    for (int k = 0; k < segments; k++) {
         const yb_vertex_t *a = &plan->map->vertex[contour->first + k];
         const yb_vertex_t *b = &plan->map->vertex[next_point(contour, k)];
         const double x = plan_x(a), y = plan_y(plan, a);
@@ -164,7 +171,7 @@ static void draw_contours(const yb_mesh_plan_t *plan)
             else
                 line_to(plan, vertex);
         }
-        if (!contour->open)
+        if (!yb_contour_is_open(map, contour))
             yb_drawing_loop(plan->drawing);
         if (plan->request->stage == YB_STAGE_CONTOURS && plan->lower[i] != 0) {
             ink.width *= 0.7;
@@ -304,7 +311,7 @@ static bool label_segment(yb_mesh_plan_t *plan, const yb_contour_t *contour, int
 static void label_contour(yb_mesh_plan_t *plan, const yb_contour_t *contour)
 {
     const yb_vertex_t *vertex = plan->map->vertex;
-    const int segments = contour->count - (contour->open ? 1 : 0);
+    const int segments = segment_count(plan, contour);
     double longest = 0;
     int best = 0;
     for (int k = 0; k < segments; k++) {

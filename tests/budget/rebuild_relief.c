@@ -73,12 +73,14 @@ static bool triangulate_plainly(void)
     plain.detail = false;
     plain_load.contour_count = load.contour_count;
     plain_load.point_count = load.point_count;
-    plain.vertex_count = load.point_count;
+    plain_load.vertex_count = load.point_count;
     memcpy(plain.vertex, map.vertex, load.point_count * sizeof(map.vertex[0]));
     for (int i = 0; i < load.contour_count; i++)
         plain_load.contour[i] =
             (yb_contour_t){.first = load.contour[i].first, .count = load.contour[i].count};
-    return border_close(&plain_load) && mesh_triangulate(&plain_load);
+    bool fits = border_close(&plain_load) && mesh_triangulate(&plain_load);
+    plain.vertex_count = plain_load.vertex_count;
+    return fits;
 }
 
 static bool write_lines(const char *folder, const yb_lines_t *lines, yb_error_t *error)

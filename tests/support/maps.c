@@ -50,9 +50,13 @@ void map_set(yb_map_t *map, yb_load_t *load, const plan_t *plan)
 yb_status_t map_triangulate(yb_map_t *map, yb_load_t *load, const plan_t *plan)
 {
     map_set(map, load, plan);
-    map->vertex_count = load->point_count;
-    return border_close(load) && mesh_triangulate(load) && regions_find(load) ? YB_OK
-                                                                              : YB_ERR_CORRUPT;
+    load->vertex_count = load->point_count;
+    bool fits = border_close(load) && mesh_triangulate(load);
+    map->vertex_count = load->vertex_count;
+    if (!fits)
+        return YB_ERR_CORRUPT;
+    regions_find(load);
+    return YB_OK;
 }
 
 yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan)
@@ -60,7 +64,7 @@ yb_status_t map_link(yb_map_t *map, yb_load_t *load, const plan_t *plan)
     yb_status_t status = map_triangulate(map, load, plan);
     if (status == YB_OK && (!summits_add(load) || !links_add(load)))
         status = YB_ERR_LIMIT;
-    load->first_skeleton = map->vertex_count;
+    load->first_skeleton = map->vertex_count = load->vertex_count;
     return status;
 }
 

@@ -311,7 +311,7 @@ const char *mesh_check_regions(const yb_map_t *map, const yb_load_t *load, const
         const plan_contour_t *c = &plan->contour[i];
         const yb_contour_t *found = &load->contour[i];
         if (found->first != c->first || found->count != c->count ||
-            found->open != plan_open(plan, i))
+            yb_contour_is_open(map, found) != plan_open(plan, i))
             return "a contour's record";
         int t[2] = {NONE, NONE};
         if (c->count > 1) {

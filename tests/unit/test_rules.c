@@ -107,6 +107,7 @@ static void shuffle(rng_t *rng)
     was = map;
     had = load;
     had.across = was.across;
+    had.corners = was.triangle[0];
     static int place[YB_MAX_TRIANGLES];
     static int turned[YB_MAX_TRIANGLES];
     int region[YB_MAX_CONTOURS + 1];
@@ -135,7 +136,7 @@ static void shuffle(rng_t *rng)
     }
     for (int v = 0; v < map.vertex_count; v++)
         load.star[v] = (yb_triangle_t)place[had.star[v]];
-    for (int c = 0; c < load.contour_count + load.summit_count; c++) {
+    for (int c = 0; c < load.all_contours; c++) {
         load.contour[c].left = (yb_index_t)region[had.contour[c].left];
         load.contour[c].right = (yb_index_t)region[had.contour[c].right];
     }
@@ -151,6 +152,7 @@ static bool apply_rules(rng_t *rng, bool shuffled, uint64_t hash[3])
             shuffle(rng);
         if (!stage[k](&load))
             return false;
+        map.vertex_count = load.vertex_count;
         hash[k] = mesh_hash(&map);
     }
     return true;

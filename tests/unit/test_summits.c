@@ -64,7 +64,7 @@ static void three_points_get_one_inside(void **state)
         assert_int_equal(yb_vertex_rule(&load, (yb_index_t)load.first_summit), YB_RULE_SUMMIT);
         for (int k = 0; k < 3; k++)
             assert_int_equal(map_edge(&map, &load, k, load.first_summit), YB_RULE_SUMMIT);
-        assert_int_equal(load.summit_count, 1);
+        assert_int_equal(load.all_contours - load.contour_count, 1);
         assert_int_equal(load.contour[1].first, load.first_summit);
         assert_int_equal(load.contour[1].left, load.contour[0].left);
     }

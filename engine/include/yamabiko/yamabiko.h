@@ -15,7 +15,7 @@
  * Memory. The engine allocates nothing, keeps no globals, never recurses and uses no floating
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (6.9 KB with 255 vertices)
- *   yb_load_t   working memory of decoding: until YB_OK           (3.5 KB)
+ *   yb_load_t   working memory of decoding: until YB_OK           (3.2 KB)
  *   yb_frame_t  working memory of drawing: one frame at a time    (5.5 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM. What a map
  * leaves of its own makes bands taller: yb_frame_place.
@@ -204,8 +204,15 @@ typedef struct {
     yb_index_t count; /* points: 1 is a summit (or any spot height) */
     yb_index_t left;  /* region on its left side, in the direction of its points */
     yb_index_t right; /* region on its right side; equal to left for a spot height */
-    bool open;        /* its ends lie on the frame */
 } yb_contour_t;
+
+/* Do its ends lie on the frame? Other points of contours never do. */
+static inline bool yb_contour_is_open(const yb_map_t *map, const yb_contour_t *contour)
+{
+    const yb_vertex_t *first = &map->vertex[contour->first];
+    return first->x_q8 == 0 || first->y_q8 == 0 || first->x_q8 == map->east_q8 ||
+           first->y_q8 == map->north_q8;
+}
 
 /* A step from point to point: its greater difference n, and where on the square of that radius it
  * ends, 0 … 8n - 1, counter-clockwise from the east. Private to the compact profile.
@@ -219,9 +226,26 @@ typedef struct {
     yb_index_t parent; /* the point it was reached from */
     yb_index_t other;  /* the second such point, where two branches meet; else itself */
     yb_index_t end;    /* the meeting point at its farthest end; itself: that is a dead end */
-    yb_index_t unused;
-    bool grown;
+    yb_index_t grown;  /* have the bridges that it looks at been split? */
 } yb_branch_t;
+
+/* What one stage of loading alone needs; each fills it in before it reads it. Private to loading.
+ */
+typedef union {
+    uint16_t model[128];                   /* compact.c: what it has learned */
+    yb_triangle_t root[YB_MAX_TRIANGLES];  /* regions.c: union-find */
+    struct {                               /* summits.c */
+        yb_index_t flat[YB_MAX_REGIONS];   /* is a region of one height? */
+        yb_index_t beside[YB_MAX_REGIONS]; /* a region that it shares a line with */
+    };
+    struct {                               /* links.c, saddles.c */
+        yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
+        yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
+        yb_index_t group[YB_MAX_CONTOURS]; /* of a peak, its line or one joined to that */
+    };
+    /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
+    uint32_t way[YB_MAX_VERTICES];
+} yb_scratch_t;
 
 /* Working memory of decoding. contour[0 .. contour_count) and region_count stay valid after YB_OK
  * for those who want to know how the map is built; all else is private.
@@ -229,7 +253,7 @@ typedef struct {
 typedef struct {
     uint16_t contour_count;
     uint16_t region_count;
-    uint16_t summit_count;   /* contour[contour_count ..] are so many summits that were added */
+    uint16_t all_contours;   /* contour[contour_count ..] up to here are summits that were added */
     uint16_t first_summit;   /* vertices from here on are summits that were added … */
     uint16_t first_saddle;   /* … from here on link points … */
     uint16_t first_skeleton; /* … and from here on points of skeletons */
@@ -245,18 +269,22 @@ typedef struct {
     uint16_t at; /* how far the state has come; the element's model */
     uint16_t value, recent, lines, spots, run;
     uint16_t point_count;
+    uint16_t vertex_count; /* the map's, once it is complete */
     uint16_t vertices_promised;
     uint16_t section_at, section_size, size;
     yb_status_t result;
-    yb_map_t *map;       /* what is loaded, … */
-    yb_vertex_t *vertex; /* … its vertices, … */
-    yb_across_t *across; /* … and what lies across its triangles' edges */
+    yb_map_t *map;         /* what is loaded, … */
+    yb_vertex_t *vertex;   /* … its vertices, … */
+    yb_across_t *across;   /* … what lies across its triangles' edges, … */
+    yb_index_t *corners;   /* … and their corners, three a triangle in a row */
+    yb_scratch_t *scratch; /* scratch_memory: short instructions do not reach that either */
     union {
         struct { /* compact.c */
             uint32_t range, code;
-            int32_t base, places_left;
-            int x, y, start_x, start_y, start_way, length, height;
+            int x, y, start_x, start_y, length, height;
             yb_ring_t last; /* step */
+            int32_t places_left, base;
+            int start_way;
         };
         struct { /* paper.c */
             uint32_t bits, flags;
@@ -282,19 +310,7 @@ typedef struct {
     /* private: the triangulation */
     yb_index_t region[YB_MAX_TRIANGLES];
     yb_triangle_t star[YB_MAX_VERTICES]; /* one of the triangles that meet at a vertex */
-    /* private: what one stage alone needs; each fills it in before it reads it */
-    union {
-        uint16_t model[128];                   /* compact.c: what it has learned */
-        yb_triangle_t root[YB_MAX_TRIANGLES];  /* regions.c: union-find */
-        uint8_t ground[YB_MAX_REGIONS];        /* summits.c: what a region is like */
-        struct {                               /* links.c, saddles.c */
-            yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
-            yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
-            yb_index_t group[YB_MAX_CONTOURS]; /* of a peak, its line or one joined to that */
-        };
-        /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
-        uint32_t way[YB_MAX_VERTICES];
-    };
+    yb_scratch_t scratch_memory;         /* private */
 } yb_load_t;
 
 /* Why a point or an edge of the mesh is there (docs/SPEC.md 2). */

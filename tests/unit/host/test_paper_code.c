@@ -46,7 +46,7 @@ static void test_engine_reads_what_is_written(void **state)
     assert_int_equal(file->size, yb_paper_size(&set));
     assert_int_equal(file->load.contour_count, 3);
     assert_int_equal(file->map.vertex_count, 14); /* one of a skeleton */
-    assert_true(file->load.contour[1].open);
+    assert_true(yb_contour_is_open(&file->map, &file->load.contour[1]));
     assert_int_equal(file->map.seed, 99);
     for (int i = 0; i < set.point_count; i++) {
         assert_int_equal(file->map.vertex[i].x_q8, set.point[i].x * 256);

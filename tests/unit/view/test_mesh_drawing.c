@@ -81,7 +81,7 @@ static int contour_edges(const yb_code_file_t *file)
     for (uint16_t i = 0; i < file->load.contour_count; i++) {
         const yb_contour_t *contour = &file->load.contour[i];
         if (contour->count > 1)
-            edges += contour->count - (contour->open ? 1 : 0);
+            edges += contour->count - (yb_contour_is_open(&file->map, contour) ? 1 : 0);
     }
     return edges;
 }
