@@ -130,7 +130,7 @@ static inline int32_t shifted(int32_t a, int shift)
 /* --- The frame's constants -------------------------------------------------------------------- */
 
 /* A part of a length, as a sine: Q14. Of no length, something else. */
-APART int32_t sine_of(int32_t part, int32_t length, int32_t otherwise)
+APART int32_t share_of(int32_t part, int32_t length, int32_t otherwise)
 {
     return length > 0 ? fix_scale(part, (int32_t)1 << 14, length) : otherwise;
 }
@@ -153,10 +153,10 @@ static void find_rows(yb_frame_t *frame)
     const int32_t flat = length_q15[1];
     const int32_t whole = length_q15[2];
     /* Straight down (or up) any β would do: the picture's top is where the view's azimuth says. */
-    const int32_t sin_b = sine_of(way_q15[1], flat, -yb_cos_q14(view->azimuth_bam));
-    const int32_t cos_b = sine_of(way_q15[0], flat, -yb_sin_q14(view->azimuth_bam));
-    const int32_t sin_a = sine_of(way_q15[2], whole, 0);
-    const int32_t cos_a = sine_of(flat, whole, 1 << 14);
+    const int32_t sin_b = share_of(way_q15[1], flat, -yb_cos_q14(view->azimuth_bam));
+    const int32_t cos_b = share_of(way_q15[0], flat, -yb_sin_q14(view->azimuth_bam));
+    const int32_t sin_a = share_of(way_q15[2], whole, 0);
+    const int32_t cos_a = share_of(flat, whole, 1 << 14);
     frame->right_x = -sin_b;
     frame->right_y = cos_b;
     frame->up_x = -((sin_a * cos_b) >> 14);
@@ -385,17 +385,21 @@ void camera_see(const yb_frame_t *frame, yb_point_t *point)
 {
     camera_point_t at;
     camera_view(frame, point->place, point->top_q8, &at);
-    point->spot = (yb_spot_t){0};
-    if (at.depth < frame->near || fix_abs(at.right) >= 2 * at.depth ||
-        fix_abs(at.up) >= 2 * at.depth)
-        return;
-    int32_t x_q4;
-    int32_t y_q4;
-    int32_t near = project(frame, &at, &x_q4, &y_q4);
-    uint32_t wide = frame->screen.width * (uint32_t)16;
-    uint32_t high = frame->screen.height * (uint32_t)16;
-    if ((uint32_t)x_q4 + wide <= 3 * wide && (uint32_t)y_q4 + high <= 3 * high)
-        point->spot = (yb_spot_t){(yb_side_t)x_q4, (yb_side_t)y_q4, (uint16_t)near, 0};
+    int32_t x_q4 = 0;
+    int32_t y_q4 = 0;
+    int32_t near = 0;
+    if (at.depth >= frame->near && fix_abs(at.right) < 2 * at.depth &&
+        fix_abs(at.up) < 2 * at.depth) {
+        near = project(frame, &at, &x_q4, &y_q4);
+        const uint32_t wide = frame->screen.width * (uint32_t)16;
+        const uint32_t high = frame->screen.height * (uint32_t)16;
+        if ((uint32_t)x_q4 + wide > 3 * wide || (uint32_t)y_q4 + high > 3 * high)
+            x_q4 = y_q4 = near = 0;
+    }
+    point->spot.x_q4 = (yb_side_t)x_q4;
+    point->spot.y_q4 = (yb_side_t)y_q4;
+    point->spot.near = (uint16_t)near;
+    point->spot.out = 0;
 }
 
 void camera_drop(const yb_frame_t *frame, const yb_point_t *point, int32_t z_q8, yb_point_t *to)

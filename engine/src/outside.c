@@ -263,7 +263,11 @@ COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *
 bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int often, int32_t stray)
 {
-    crowd_t crowd = {.p = p, .count = count, .often = often, .stray = stray};
+    crowd_t crowd; /* field by field: small compilers would clear it first */
+    crowd.p = p;
+    crowd.count = count;
+    crowd.often = often;
+    crowd.stray = stray;
     find_box(p, count, &crowd.box);
     return misses(frame, view, &crowd);
 }
@@ -320,6 +324,8 @@ COPIED void find_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], i
     const int32_t high = spread(v[0]->y_q8, v[1]->y_q8, v[2]->y_q8);
     const uint32_t length = (uint32_t)fix_length(wide, high);
     uint32_t size = ((length + (length >> 3)) >> 1) * (uint32_t)near;
+    crowd->stray = 0;
+    crowd->often = 0;
     for (; size > frame->longest; size >>= 1)
         crowd->often++;
     if (crowd->often > 0)
@@ -339,7 +345,6 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
     const yb_point_t *p[REFINE_POINTS];
     const yb_vertex_t *v[3];
-    crowd_t crowd = {.p = p, .count = 0};
     const bool walls = walls_are_below(frame, triangle);
     for (int i = 0; i < 3; i++) {
         v[i] = &frame->map->vertex[corner[i]];
@@ -349,6 +354,8 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
         if (walls)
             camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
     }
+    crowd_t crowd;
+    crowd.p = p;
     crowd.count = walls ? REFINE_POINTS : 3;
     find_box(p, crowd.count, &crowd.box);
     find_reach(frame, v, crowd.box.near == 0 ? 65535 : nearest_in(&crowd.box), &crowd);

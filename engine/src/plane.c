@@ -14,18 +14,18 @@ static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t
 {
     const int32_t dx = to->x_q4 - (int32_t)from->x_q4;
     const int32_t dy = to->y_q4 - (int32_t)from->y_q4;
-    int32_t start = -1;
     const uint32_t size = (uint32_t)fix_abs(dx);
+    int32_t start = -1;
     int64_t slope;
-    if (size < (uint32_t)1 << 12) {
-        slope = (int64_t)((size << ROWS_FRACTION) / (uint32_t)dy);
-        /* Where a small triangle may have it, it is off by less than ROWS_HALF, as there. */
-        if (dy <= RASTER_HIGH_Q4 && size <= 2 * RASTER_WIDE_Q4)
-            start = -ROWS_HALF;
+    if (dy <= RASTER_HIGH_Q4 && size <= 2 * RASTER_WIDE_Q4) { /* as a small triangle may have it */
+        slope = rows_small_slope(dx, dy);
+        start = -ROWS_HALF;
     } else {
-        slope = (int64_t)(((uint64_t)size << ROWS_FRACTION) / (uint32_t)dy);
+        slope = size < (uint32_t)1 << 12
+                    ? (int64_t)((size << ROWS_FRACTION) / (uint32_t)dy)
+                    : (int64_t)(((uint64_t)size << ROWS_FRACTION) / (uint32_t)dy);
+        slope = dx < 0 ? -slope : slope;
     }
-    slope = dx < 0 ? -slope : slope;
     const int64_t at = (int64_t)(from->x_q4 + 8) * ((int32_t)1 << ROWS_FRACTION) + start +
                        slope * (y * 16 + 8 - from->y_q4);
     return (long_side_t){at * (1 << (32 - ROWS_PIXEL)), slope * (16 << (32 - ROWS_PIXEL))};
