@@ -83,12 +83,10 @@ COPIED void draw_leaf(const walk_t *walk, const yb_point_t *const p[3], int some
     raster_plain(raster, &shape, shade_ground(frame, p).pixel);
 }
 
-/* A leaf that is beyond some sides of the band. */
+/* A leaf that is beyond some sides of the band in part. */
 SELDOM void leaf_partly(const walk_t *walk, const yb_point_t *a, const yb_point_t *b,
                         const yb_point_t *c)
 {
-    if ((a->spot.out & b->spot.out & c->spot.out & REFINE_SIDES) != 0)
-        return;
     const yb_point_t *const p[3] = {a, b, c};
     draw_leaf(walk, p, a->spot.out | b->spot.out | c->spot.out);
 }
@@ -97,7 +95,8 @@ SELDOM void leaf_partly(const walk_t *walk, const yb_point_t *a, const yb_point_
 static void leaf(const walk_t *walk, const yb_point_t *a, const yb_point_t *b, const yb_point_t *c)
 {
     if (!COPIES || !USUAL((a->spot.out | b->spot.out | c->spot.out) == 0)) {
-        leaf_partly(walk, a, b, c);
+        if ((a->spot.out & b->spot.out & c->spot.out & REFINE_SIDES) == 0)
+            leaf_partly(walk, a, b, c);
         return;
     }
     const yb_point_t *const p[3] = {a, b, c};

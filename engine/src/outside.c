@@ -307,7 +307,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
-APART int32_t spread(int32_t a, int32_t b, int32_t c)
+COPIED int32_t spread(int32_t a, int32_t b, int32_t c)
 {
     return fix_max(a, fix_max(b, c)) - fix_min(a, fix_min(b, c));
 }
@@ -333,24 +333,48 @@ COPIED void find_reach(const yb_frame_t *frame, const yb_vertex_t *const v[3], i
                                 crowd->often);
 }
 
-/* With the spare of a box nothing comes nearer by more than an eighth: 8/7. */
+/* With the spare of a box nothing comes nearer by more than an eighth: 8/7, or a little more. */
 static inline int32_t nearest_in(const box_t *box)
 {
-    return fix_min(box->near + box->near / 7 + 1, 65535);
+    return fix_min(box->near + (box->near >> 3) + (box->near >> 5) + 1, 65535);
 }
 
-void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
+/* The box of what a base triangle away from water and walls can become, as most are, by what is
+ * seen of its corners. False: that does not tell.
+ */
+static inline bool find_seen_box(const yb_frame_t *frame, const yb_index_t *corner,
+                                 const yb_vertex_t *const v[3], box_t *box)
 {
-    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    const yb_seen_t *a = &frame->seen[corner[0]];
+    const yb_seen_t *b = &frame->seen[corner[1]];
+    const yb_seen_t *c = &frame->seen[corner[2]];
+    if (a->near == 0 || b->near == 0 || c->near == 0 || frame->view.water_q8 != YB_NO_WATER)
+        return false;
+    box->near = fix_max(a->near, fix_max(b->near, c->near));
+    box->left = fix_min(a->x_q4, fix_min(b->x_q4, c->x_q4));
+    box->right = fix_max(a->x_q4, fix_max(b->x_q4, c->x_q4));
+    box->top = fix_min(a->y_q4, fix_min(b->y_q4, c->y_q4));
+    box->bottom = fix_max(a->y_q4, fix_max(b->y_q4, c->y_q4));
+    crowd_t crowd;
+    spare_t spare;
+    find_reach(frame, v, nearest_in(box), &crowd);
+    if (!find_part_spare(frame, crowd.often, crowd.stray, box->near, &spare))
+        return false;
+    widen_box(&spare, box);
+    return true;
+}
+
+/* Is nothing of a base triangle, and of the walls below it, in the view? Else what its box is. */
+SELDOM bool root_misses(const yb_frame_t *frame, const refine_view_t *whole,
+                        const yb_index_t *corner, const yb_vertex_t *const v[3], bool walls,
+                        box_t *box)
+{
     yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
     const yb_point_t *p[REFINE_POINTS];
-    const yb_vertex_t *v[3];
-    const bool walls = walls_are_below(frame, triangle);
     for (int i = 0; i < 3; i++) {
-        v[i] = &frame->map->vertex[corner[i]];
         p[i] = &root[i];
         p[3 + i] = &root[3 + i];
-        refine_corner(frame, whole, corner[i], &root[i]);
+        camera_root(frame, corner[i], &root[i]);
         if (walls)
             camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
     }
@@ -360,11 +384,27 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     find_box(p, crowd.count, &crowd.box);
     find_reach(frame, v, crowd.box.near == 0 ? 65535 : nearest_in(&crowd.box), &crowd);
     crowd.stray = stray_in_water(frame, p, crowd.stray);
+    const bool missed = misses(frame, whole, &crowd);
+    *box = crowd.box;
+    return missed;
+}
+
+void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
+{
+    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    const bool walls = walls_are_below(frame, triangle);
+    const yb_vertex_t *v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = &frame->map->vertex[corner[i]];
+    box_t box;
+    const bool missed = COPIES && !walls && find_seen_box(frame, corner, v, &box)
+                            ? box_misses(whole, &box)
+                            : root_misses(frame, whole, corner, v, walls, &box);
     const int32_t last = frame->screen.height - 1;
     int bins = (int)(last >> frame->row_shift) << 4;
-    if (!misses(frame, whole, &crowd)) {
-        bins = (int)(fix_clamp(crowd.box.top >> 4, 0, last) >> frame->row_shift << 4 |
-                     fix_clamp(crowd.box.bottom >> 4, 0, last) >> frame->row_shift);
+    if (!missed) {
+        bins = (int)(fix_clamp(box.top >> 4, 0, last) >> frame->row_shift << 4 |
+                     fix_clamp(box.bottom >> 4, 0, last) >> frame->row_shift);
     }
     frame->bins[triangle] = (uint8_t)bins;
 }
