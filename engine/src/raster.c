@@ -97,12 +97,12 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     }
 }
 
+#if COPIES
 APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
 {
     ROWS_DRAW(draw_level, raster, shape, 0, cut);
 }
 
-#if COPIES
 void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
     draw_level(false, raster, shape, pixel, NULL);
@@ -112,7 +112,6 @@ void raster_colours(const raster_t *raster, const raster_shape_t *shape, uint16_
 {
     draw_level(true, raster, shape, pixel, NULL);
 }
-#endif
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
@@ -122,6 +121,13 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
     else
         ROWS_DRAW(draw_level, raster, shape, pixel, NULL);
 }
+#else
+void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
+                  const raster_cut_t *cut)
+{
+    draw_level(raster->colours, raster, shape, pixel, cut);
+}
+#endif
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 
