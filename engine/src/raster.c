@@ -17,7 +17,7 @@ typedef struct {
  * begin_base. It lies within 24 + 3 RASTER_WIDE_Q4 of it: below 2^31 with its 20 fractional bits.
  */
 static inline uint64_t side_words(const yb_spot_t *from, const yb_spot_t *to, uint32_t base,
-                                     int32_t y)
+                                  int32_t y)
 {
     const int32_t slope =
         rows_small_slope(to->x_q4 - (int32_t)from->x_q4, to->y_q4 - (int32_t)from->y_q4);
