@@ -11,6 +11,13 @@
 #define APART static
 #endif
 
+/* A function so small that a call would take more room, and registers, than a copy of it. */
+#if defined(__GNUC__)
+#define TINY static inline __attribute__((always_inline))
+#else
+#define TINY static inline
+#endif
+
 /* Does speed count more than size? Then what most triangles need has a copy of its own, COPIED
  * functions are in line wherever they are called, and SELDOM ones stay apart.
  */

@@ -102,7 +102,7 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
 /* --- Where is it seen? ------------------------------------------------------------------------ */
 
 /* The sides of the view that a place on the screen is beyond: of most, none. */
-static inline uint8_t out_of(const refine_view_t *view, int32_t x_q4, int32_t y_q4)
+TINY uint8_t out_of(const refine_view_t *view, int32_t x_q4, int32_t y_q4)
 {
     int32_t x = x_q4 - view->left_q4;
     int32_t y = y_q4 - view->top_q4;

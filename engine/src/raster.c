@@ -26,6 +26,24 @@ static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, uint
                     (uint32_t)slope << 4};
 }
 
+/* The same, where size counts: a call whose answer comes in two registers, the step in the upper
+ * one. A struct would come by memory.
+ */
+#if !COPIES
+APART uint64_t side_words(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
+{
+    const side_t side = begin_side(from, to, base, y);
+    return (uint64_t)side.step << 32 | side.at;
+}
+
+TINY side_t begin_side_apart(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
+{
+    const uint64_t words = side_words(from, to, base, y);
+    return (side_t){(uint32_t)words, (uint32_t)(words >> 32)};
+}
+#define begin_side begin_side_apart
+#endif
+
 /* What is to be added to a coordinate: pixels from a base, 8 sixteenths for the first whose centre
  * is not left of it, and the rounding.
  */
@@ -97,12 +115,12 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     }
 }
 
+#if COPIES
 APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
 {
     ROWS_DRAW(draw_level, raster, shape, 0, cut);
 }
 
-#if COPIES
 void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
     draw_level(false, raster, shape, pixel, NULL);
@@ -112,7 +130,6 @@ void raster_colours(const raster_t *raster, const raster_shape_t *shape, uint16_
 {
     draw_level(true, raster, shape, pixel, NULL);
 }
-#endif
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
@@ -122,6 +139,13 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
     else
         ROWS_DRAW(draw_level, raster, shape, pixel, NULL);
 }
+#else
+void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
+                  const raster_cut_t *cut)
+{
+    draw_level(raster->colours, raster, shape, pixel, cut);
+}
+#endif
 
 /* --- Triangles -------------------------------------------------------------------------------- */
 

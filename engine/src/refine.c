@@ -22,8 +22,8 @@ static inline yb_edge_t ask_anew(const yb_frame_t *frame, const yb_point_t *a, c
 }
 
 /* Both halves of the edge ab at its midpoint m. */
-static inline void halve(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *m,
-                         const yb_point_t *b, yb_edge_t edge, yb_edge_t *am, yb_edge_t *mb)
+TINY void halve(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *m,
+                const yb_point_t *b, yb_edge_t edge, yb_edge_t *am, yb_edge_t *mb)
 {
     *am = *mb = refine_half(edge);
     if (edge >= REFINE_AGAIN) {

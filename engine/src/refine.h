@@ -68,7 +68,7 @@ static inline int refine_class(yb_edge_t edge)
 /* Either half of an edge that is split, to be asked anew if that is REFINE_AGAIN. Its class is its
  * own only if it can be split on.
  */
-static inline yb_edge_t refine_half(yb_edge_t edge)
+TINY yb_edge_t refine_half(yb_edge_t edge)
 {
     return ((edge & 0xffff) >> 1) + ((edge & 0xffff0000) - 0x01040000);
 }

@@ -145,7 +145,7 @@ static inline uint32_t slopes_of(const yb_point_t *const p[3])
 /* Turns a triangle's normal towards that of the smooth surface, which the slopes at its corners
  * tell, by three parts of seven: the facets of a coarse mesh vanish, the fractal detail stays.
  */
-static inline void smooth_normal(uint32_t slopes, normal_t *n)
+TINY void smooth_normal(uint32_t slopes, normal_t *n)
 {
     int32_t east = (int16_t)(slopes & 0xffff);
     int32_t north = (int32_t)slopes >> 16;
