@@ -16,8 +16,7 @@ typedef struct {
 /* The side down from one corner to another, at row y, right of a base that is given as by
  * begin_base. It lies within 24 + 3 RASTER_WIDE_Q4 of it: below 2^31 with its 20 fractional bits.
  */
-static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, uint32_t base,
-                                int32_t y)
+static inline side_t find_side(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
 {
     const int32_t slope =
         rows_small_slope(to->x_q4 - (int32_t)from->x_q4, to->y_q4 - (int32_t)from->y_q4);
@@ -26,22 +25,27 @@ static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, uint
                     (uint32_t)slope << 4};
 }
 
-/* The same, where size counts: a call whose answer comes in two registers, the step in the upper
- * one. A struct would come by memory.
- */
-#if !COPIES
-APART uint64_t side_words(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
+#if COPIES
+static inline side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, uint32_t base,
+                                int32_t y)
 {
-    const side_t side = begin_side(from, to, base, y);
+    return find_side(from, to, base, y);
+}
+#else
+/* Where size counts it is called, and its answer comes in two registers, the step in the upper one:
+ * a struct would come by memory.
+ */
+APART uint64_t find_words(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
+{
+    const side_t side = find_side(from, to, base, y);
     return (uint64_t)side.step << 32 | side.at;
 }
 
-TINY side_t begin_side_apart(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
+TINY side_t begin_side(const yb_spot_t *from, const yb_spot_t *to, uint32_t base, int32_t y)
 {
-    const uint64_t words = side_words(from, to, base, y);
+    const uint64_t words = find_words(from, to, base, y);
     return (side_t){(uint32_t)words, (uint32_t)(words >> 32)};
 }
-#define begin_side begin_side_apart
 #endif
 
 /* What is to be added to a coordinate: pixels from a base, 8 sixteenths for the first whose centre
