@@ -293,8 +293,8 @@ static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shad
 /* A triangle's shore, where it reaches into the water: heights less than 2^16 from that have values
  * within 2^31. Or its contour lines.
  */
-APART bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
-                  raster_cut_t *cut)
+bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
+                 raster_cut_t *cut)
 {
     static const normal_t level = {0, 0, 1 << 12};
     lines_scale_t scale = {frame->contour_inverse, frame->contour_zero, frame->contour_shift};
@@ -314,29 +314,6 @@ APART bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t
     }
     cut->line = line_pixel(frame, hue, light, near);
     return true;
-}
-
-bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
-               raster_cut_t *cut)
-{
-    const int32_t z = p[0]->z_q8;
-    const int32_t rise_b = p[1]->z_q8 - z;
-    const int32_t rise_c = p[2]->z_q8 - z;
-    const int32_t low = fix_min(fix_min(rise_b, 0), rise_c);
-    const int32_t high = fix_max(fix_max(rise_b, 0), rise_c);
-    const uint32_t range = (uint32_t)(high - low);
-    if (range >= (uint32_t)1 << 16)
-        return false;
-    const bool shore = z + low < frame->view.water_q8;
-    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
-     * is no more than a quarter of a triangle that has pixels. What is above the highest line below
-     * the top is less than all. */
-    const uint32_t span = range * frame->contour_inverse;
-    const uint32_t top = (uint32_t)(z + high) * frame->contour_inverse + frame->contour_zero;
-    if (shore ? z + high <= frame->view.water_q8
-              : range < frame->contour_few && top + (span >> 2) > span + (span >> 1))
-        return false;
-    return cut_by(frame, p, shade, shore, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
