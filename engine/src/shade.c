@@ -180,8 +180,7 @@ COPIED int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], i
     const uint32_t quarters = 0x3fff3fff;
     const uint32_t sum = (p[0]->place >> 2 & quarters) + (p[1]->place >> 2 & quarters) +
                          (p[2]->place >> 2 & quarters);
-    const int32_t light = shadow_light(shadow, (int32_t)((sum & 0xffff) * 21845 >> 14),
-                                       (int32_t)((sum >> 16) * 21845 >> 14));
+    const int32_t light = shadow_at(shadow, (sum & 0xffff) * 21845, (sum >> 16) * 21845, 14);
     if (light == SHADOW_NONE)
         return shade;
     return DARKEST + (((shade - DARKEST) * (64 + 3 * light) + 128) >> 8);
@@ -248,11 +247,13 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     const uint32_t looks = frame->looks;
     const int32_t shade = shadowed(frame, corner, light);
     uint16_t pixel = (uint16_t)shade;
-    if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
-        pixel = water_pixel(frame, shade, nearest_of(corner));
-    else if ((looks & LOOK_COLOURS) != 0)
-        return coloured(frame, corner, shade, light);
-    else if ((looks & LOOK_HAZE) != 0)
+    if (!USUAL((looks & (LOOK_ODD | LOOK_COLOURS)) == 0)) {
+        if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
+            return (shade_t){water_pixel(frame, shade, nearest_of(corner)), (uint16_t)light};
+        if ((looks & LOOK_COLOURS) != 0)
+            return coloured(frame, corner, shade, light);
+    }
+    if ((looks & LOOK_HAZE) != 0)
         pixel = colour_grey(frame, shade, nearest_of(corner));
     return (shade_t){pixel, (uint16_t)light};
 }
@@ -284,10 +285,11 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
     const int32_t contrast = frame->screen.format == YB_MONO ? SHADES : SHADES / 3;
-    if ((frame->looks & LOOK_COLOURS) == 0)
-        shade = shade > SHADES / 3 ? fix_max(shade - contrast, 0)
-                                   : fix_min(shade + contrast, SHADES - 1);
-    return colour_pixel(frame, hue, shade, near);
+    if ((frame->looks & LOOK_COLOURS) != 0)
+        return colour_pixel(frame, hue, shade, near);
+    shade =
+        shade > SHADES / 3 ? fix_max(shade - contrast, 0) : fix_min(shade + contrast, SHADES - 1);
+    return colour_grey(frame, shade, near);
 }
 
 /* A triangle's shore, where it reaches into the water: heights less than 2^16 from that have values
