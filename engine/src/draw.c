@@ -47,7 +47,9 @@ SELDOM void draw_odd(const yb_frame_t *frame, const raster_t *raster, const yb_p
     const shade_t shade = shade_ground(frame, p);
     raster_cut_t cut;
     const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
-    if (small)
+    if (COPIES && small && !cuts)
+        raster_plain(raster, shape, shade.pixel);
+    else if (small)
         raster_level(raster, shape, shade.pixel, cuts ? &cut : NULL);
     else
         raster_plane(raster, shape, shade.pixel, cuts ? &cut : NULL);

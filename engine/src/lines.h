@@ -21,6 +21,11 @@ typedef struct {
 #define LINES_RECIPROCAL fix_reciprocal
 #endif
 
+/* 2^30 of a value in a pixel, of 16 sixteenths, and a 64th more. */
+enum {
+    LINES_STEEP = 0x4100000
+};
+
 /* Finds a cut's values of a triangle whose heights differ by less than 2^16. It is
  * counter-clockwise, and has an area. False: a line is a quarter of the way from one to the next,
  * or more; where there is one only, the triangle is a sliver.
@@ -53,12 +58,16 @@ COPIED bool lines_find(const yb_point_t *const p[3], lines_scale_t by, raster_cu
     const int32_t rise_c = p[2]->z_q8 - p[0]->z_q8;
     int32_t along_x = rise_c * y1 - rise_b * y2;
     int32_t along_y = rise_b * x2 - rise_c * x1;
+    int32_t steepest = fix_max(fix_abs(along_x), fix_abs(along_y));
+#if COPIES /* where there is more than enough of it, nothing is divided */
+    if ((int64_t)steepest * (int32_t)by.scale >= (int64_t)area * ((int32_t)LINES_STEEP << coarse))
+        return false;
+#endif
     /* Over the area: 2^29 over 15 bits of it. The least of 15 bits times 16 is below 2^31. */
     const int up = 31 - fix_log2_floor((uint32_t)area);
     const uint32_t inverse = (uint32_t)LINES_RECIPROCAL((int32_t)((uint32_t)area << up >> 17));
     const int32_t factor = (int32_t)(inverse * (by.scale >> by.shift) >> 15);
     /* 14 bits times 16 are below 2^30. */
-    int32_t steepest = fix_max(fix_abs(along_x), fix_abs(along_y));
     const int down = fix_log2_floor((uint32_t)steepest | (uint32_t)1 << 13) - 13;
     along_x = (along_x >> down) * factor;
     along_y = (along_y >> down) * factor;

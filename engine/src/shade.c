@@ -180,8 +180,7 @@ COPIED int32_t shadowed(const yb_frame_t *frame, const yb_point_t *const p[3], i
     const uint32_t quarters = 0x3fff3fff;
     const uint32_t sum = (p[0]->place >> 2 & quarters) + (p[1]->place >> 2 & quarters) +
                          (p[2]->place >> 2 & quarters);
-    const int32_t light = shadow_light(shadow, (int32_t)((sum & 0xffff) * 21845 >> 14),
-                                       (int32_t)((sum >> 16) * 21845 >> 14));
+    const int32_t light = shadow_at(shadow, (sum & 0xffff) * 21845, (sum >> 16) * 21845, 14);
     if (light == SHADOW_NONE)
         return shade;
     return DARKEST + (((shade - DARKEST) * (64 + 3 * light) + 128) >> 8);
@@ -248,11 +247,13 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     const uint32_t looks = frame->looks;
     const int32_t shade = shadowed(frame, corner, light);
     uint16_t pixel = (uint16_t)shade;
-    if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
-        pixel = water_pixel(frame, shade, nearest_of(corner));
-    else if ((looks & LOOK_COLOURS) != 0)
-        return coloured(frame, corner, shade, light);
-    else if ((looks & LOOK_HAZE) != 0)
+    if (!USUAL((looks & (LOOK_ODD | LOOK_COLOURS)) == 0)) {
+        if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
+            return (shade_t){water_pixel(frame, shade, nearest_of(corner)), (uint16_t)light};
+        if ((looks & LOOK_COLOURS) != 0)
+            return coloured(frame, corner, shade, light);
+    }
+    if ((looks & LOOK_HAZE) != 0)
         pixel = colour_grey(frame, shade, nearest_of(corner));
     return (shade_t){pixel, (uint16_t)light};
 }
@@ -284,17 +285,18 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
 static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shade, int32_t near)
 {
     const int32_t contrast = frame->screen.format == YB_MONO ? SHADES : SHADES / 3;
-    if ((frame->looks & LOOK_COLOURS) == 0)
-        shade = shade > SHADES / 3 ? fix_max(shade - contrast, 0)
-                                   : fix_min(shade + contrast, SHADES - 1);
-    return colour_pixel(frame, hue, shade, near);
+    if ((frame->looks & LOOK_COLOURS) != 0)
+        return colour_pixel(frame, hue, shade, near);
+    shade =
+        shade > SHADES / 3 ? fix_max(shade - contrast, 0) : fix_min(shade + contrast, SHADES - 1);
+    return colour_grey(frame, shade, near);
 }
 
 /* A triangle's shore, where it reaches into the water: heights less than 2^16 from that have values
  * within 2^31. Or its contour lines.
  */
-APART bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
-                  raster_cut_t *cut)
+bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
+                 raster_cut_t *cut)
 {
     static const normal_t level = {0, 0, 1 << 12};
     lines_scale_t scale = {frame->contour_inverse, frame->contour_zero, frame->contour_shift};
@@ -314,29 +316,6 @@ APART bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t
     }
     cut->line = line_pixel(frame, hue, light, near);
     return true;
-}
-
-bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
-               raster_cut_t *cut)
-{
-    const int32_t z = p[0]->z_q8;
-    const int32_t rise_b = p[1]->z_q8 - z;
-    const int32_t rise_c = p[2]->z_q8 - z;
-    const int32_t low = fix_min(fix_min(rise_b, 0), rise_c);
-    const int32_t high = fix_max(fix_max(rise_b, 0), rise_c);
-    const uint32_t range = (uint32_t)(high - low);
-    if (range >= (uint32_t)1 << 16)
-        return false;
-    const bool shore = z + low < frame->view.water_q8;
-    /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
-     * is no more than a quarter of a triangle that has pixels. What is above the highest line below
-     * the top is less than all. */
-    const uint32_t span = range * frame->contour_inverse;
-    const uint32_t top = (uint32_t)(z + high) * frame->contour_inverse + frame->contour_zero;
-    if (shore ? z + high <= frame->view.water_q8
-              : range < frame->contour_few && top + (span >> 2) > span + (span >> 1))
-        return false;
-    return cut_by(frame, p, shade, shore, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)

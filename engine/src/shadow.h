@@ -28,14 +28,15 @@ enum {
 };
 
 /* How much of the sun reaches a place, in 64ths: blended between the four nearest cells. Inline, as
- * every triangle of a frame with shadows asks; of most places, all four are alike.
+ * every triangle of a frame with shadows asks; of most places, all four are alike. The place has so
+ * many more bits than 1/256 step.
  */
-static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
+static inline int32_t shadow_at(const yb_shadow_t *shadow, uint32_t x_q, uint32_t y_q, int more)
 {
-    const int shift = shadow_cell_shift(shadow) - 3;
+    const int shift = shadow_cell_shift(shadow) - 3 + more;
     const int32_t side = shadow->side;
-    const int32_t x = shadow_within((x_q8 >> shift) - 4, shadow->columns);
-    const int32_t y = shadow_within((y_q8 >> shift) - 4, shadow->rows);
+    const int32_t x = shadow_within((int32_t)(x_q >> shift) - 4, shadow->columns);
+    const int32_t y = shadow_within((int32_t)(y_q >> shift) - 4, shadow->rows);
     /* A cell and the one to the east of it are two bits of a byte, or one each of two bytes. The
      * cells to the north of these: 16 bits up. */
     const int32_t cell = (y >> 3) * side + (x >> 3);
@@ -51,6 +52,12 @@ static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int3
     const uint32_t up = (uint32_t)y & 7;
     const uint32_t rows = (bits & 0x10001) * (8 - east) + (bits >> 1 & 0x10001) * east;
     return (int32_t)((rows & 0xffff) * (8 - up) + (rows >> 16) * up);
+}
+
+/* The same of a place in 1/256 step. */
+static inline int32_t shadow_light(const yb_shadow_t *shadow, int32_t x_q8, int32_t y_q8)
+{
+    return shadow_at(shadow, (uint32_t)x_q8, (uint32_t)y_q8, 0);
 }
 
 #endif
