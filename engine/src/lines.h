@@ -21,9 +21,9 @@ typedef struct {
 #define LINES_RECIPROCAL fix_reciprocal
 #endif
 
-/* 2^30 of a value in a pixel, of 16 sixteenths, and a 64th more. */
 enum {
-    LINES_STEEP = 0x4100000
+    LINES_STEEP = 0x4100000, /* 2^30 of a value in a pixel, of 16 sixteenths, and a 64th more */
+    LINES_NARROW = 168       /* pixels: on a screen no larger, differences are below 2^13 */
 };
 
 /* Finds a cut's values of a triangle whose heights differ by less than 2^16. It is
@@ -33,7 +33,8 @@ enum {
  * Twice the area is below 2^27, and the determinants of rises and sides below 2^30. Of these
  * numbers the leading bits will do: lines are off by less than 2^-11 of where they begin.
  */
-COPIED bool lines_find(const yb_point_t *const p[3], lines_scale_t by, raster_cut_t *cut)
+COPIED bool lines_find(const yb_screen_t *screen, const yb_point_t *const p[3], lines_scale_t by,
+                       raster_cut_t *cut)
 {
     const yb_spot_t *a = &p[0]->spot;
     const yb_spot_t *b = &p[1]->spot;
@@ -42,10 +43,10 @@ COPIED bool lines_find(const yb_point_t *const p[3], lines_scale_t by, raster_cu
     int32_t y1 = (int32_t)b->y_q4 - a->y_q4;
     int32_t x2 = (int32_t)c->x_q4 - a->x_q4;
     int32_t y2 = (int32_t)c->y_q4 - a->y_q4;
-    const uint32_t most = fix_size(x1) | fix_size(y1) | fix_size(x2) | fix_size(y2);
     int coarse = 0;
-    if (most >= (uint32_t)1 << 13) {
-        coarse = fix_log2_floor(most) - 12;
+    if (screen->width > LINES_NARROW || screen->height > LINES_NARROW) {
+        const uint32_t most = fix_size(x1) | fix_size(y1) | fix_size(x2) | fix_size(y2);
+        coarse = fix_log2_floor(most | (uint32_t)1 << 12) - 12;
         x1 >>= coarse;
         y1 >>= coarse;
         x2 >>= coarse;

@@ -295,14 +295,14 @@ static inline uint16_t line_pixel(const yb_frame_t *frame, int hue, int32_t shad
 /* A triangle's shore, where it reaches into the water: heights less than 2^16 from that have values
  * within 2^31. Or its contour lines.
  */
-bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
-                 raster_cut_t *cut)
+COPIED bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
+                   raster_cut_t *cut)
 {
     static const normal_t level = {0, 0, 1 << 12};
     lines_scale_t scale = {frame->contour_inverse, frame->contour_zero, frame->contour_shift};
     if (shore)
         scale = (lines_scale_t){SHORE_SCALE, 0 - (uint32_t)frame->view.water_q8 * SHORE_SCALE, 0};
-    if (!lines_find(p, scale, cut))
+    if (!lines_find(&frame->screen, p, scale, cut))
         return false;
     const int32_t near = nearest_of(p);
     int hue = HUE_LINE;
@@ -316,6 +316,19 @@ bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t 
     }
     cut->line = line_pixel(frame, hue, light, near);
     return true;
+}
+
+SELDOM bool cut_shore(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+                      raster_cut_t *cut)
+{
+    return cut_by(frame, p, shade, true, cut);
+}
+
+bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade, bool shore,
+                 raster_cut_t *cut)
+{
+    return COPIES && shore ? cut_shore(frame, p, shade, cut)
+                           : cut_by(frame, p, shade, !COPIES && shore, cut);
 }
 
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)

@@ -302,7 +302,9 @@ static bool find_lines(const yb_spot_t p[3], const int32_t value[3], int32_t zer
         scale.shift = fix_log2_floor(scale.scale) - 15;
     }
     scale.zero = 0 - (uint32_t)zero * scale.scale;
-    return lines_find((const yb_point_t *const[3]){&corner[0], &corner[1], &corner[2]}, scale, cut);
+    static const yb_screen_t large = {YB_MAX_SIDE, YB_MAX_SIDE, YB_GREY4};
+    return lines_find(&large, (const yb_point_t *const[3]){&corner[0], &corner[1], &corner[2]},
+                      scale, cut);
 }
 
 /* Small triangles are drawn in two ways: where they lie, and whether lines cross them, decides. */
