@@ -205,7 +205,7 @@ enum {
     MOST_HALVINGS = 12 /* of an edge, to be counted: 2^24 leaves */
 };
 
-static uint32_t power_of_3(int often)
+static uint32_t power_of_3(int32_t often)
 {
     uint32_t power = 1;
     while (often-- > 0)
@@ -220,15 +220,15 @@ static uint32_t power_of_3(int often)
  */
 static uint32_t leaves_of(const yb_part_t *part)
 {
-    int often[3];
+    int32_t often[3];
     for (int i = 0; i < 3; i++)
-        often[i] = fix_min((int)(part->edge[i] >> 24), MOST_HALVINGS);
-    const int least = fix_min(often[0], fix_min(often[1], often[2]));
+        often[i] = fix_min((int32_t)(part->edge[i] >> 24), MOST_HALVINGS);
+    const int32_t least = fix_min(often[0], fix_min(often[1], often[2]));
     int i = 2;
     while (often[i] != least)
         i--;
-    int x = often[next3(i)] - least;
-    int y = often[next3(next3(i))] - least;
+    int32_t x = often[next3(i)] - least;
+    int32_t y = often[next3(next3(i))] - least;
     uint32_t parts = (uint32_t)1 << 2 * least;
     uint32_t leaves = 0;
     for (; x > 0 && y > 0; x--, y--, parts *= 2)

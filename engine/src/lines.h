@@ -21,9 +21,11 @@ typedef struct {
 #define LINES_RECIPROCAL fix_reciprocal
 #endif
 
+/* 2^30 of a value in a pixel, of 16 sixteenths, and a 64th more. */
+#define LINES_STEEP ((int32_t)0x4100000)
+
 enum {
-    LINES_STEEP = 0x4100000, /* 2^30 of a value in a pixel, of 16 sixteenths, and a 64th more */
-    LINES_NARROW = 168       /* pixels: on a screen no larger, differences are below 2^13 */
+    LINES_NARROW = 168 /* pixels: on a screen no larger, differences are below 2^13 */
 };
 
 /* Finds a cut's values of a triangle whose heights differ by less than 2^16. It is
@@ -61,7 +63,7 @@ COPIED bool lines_find(const yb_screen_t *screen, const yb_point_t *const p[3], 
     int32_t along_y = rise_b * x2 - rise_c * x1;
     int32_t steepest = fix_max(fix_abs(along_x), fix_abs(along_y));
 #if COPIES /* where there is more than enough of it, nothing is divided */
-    if ((int64_t)steepest * (int32_t)by.scale >= (int64_t)area * ((int32_t)LINES_STEEP << coarse))
+    if ((int64_t)steepest * (int32_t)by.scale >= (int64_t)area * (LINES_STEEP << coarse))
         return false;
 #endif
     /* Over the area: 2^29 over 15 bits of it. The least of 15 bits times 16 is below 2^31. */
