@@ -260,18 +260,17 @@ static uint32_t count_root(yb_frame_t *frame, const refine_view_t *view, yb_tria
         if (seen)
             leaves += edges >= REFINE_AGAIN ? 1 : leaves_of(part);
         from = refine_next(frame->level, from, part);
-        if (from == NULL || leaves >= enough)
+        if (from == NULL || leaves > enough)
             return leaves;
         part = &from->rest;
         top = refine_top(from);
     }
 }
 
-uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole)
+uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole, uint64_t enough)
 {
-    const uint64_t enough = (uint64_t)3 * frame->view.max_leaves;
     uint32_t leaves = 0;
-    for (yb_triangle_t t = 0; t < frame->map->triangle_count && leaves < enough; t++)
+    for (yb_triangle_t t = 0; t < frame->map->triangle_count && leaves <= enough; t++)
         leaves += count_root(frame, whole, t, enough);
     return leaves;
 }

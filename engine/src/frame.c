@@ -15,25 +15,16 @@ static inline uint32_t sum_at_most(uint32_t a, uint32_t b)
     return a > UINT32_MAX - b ? UINT32_MAX : a + b;
 }
 
-/* Raises the threshold of refinement as far as the frame's bound wants it. Leaves are counted at
- * four times the threshold, which is soon done. They go by a power of it between one, for slivers,
- * and two: by an eighth at a time it comes back to what it was as long as there may be few enough.
- * What counting finds to be too many raises it again. All this depends on the view alone, so every
- * band comes to the same threshold.
+/* Raises the threshold of refinement until the frame keeps to its bound, by most of the share that
+ * is too much: leaves go by a power of it between one, for slivers, and two. The count depends on
+ * the view alone, so every band comes to the same threshold.
  */
 static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
     const uint32_t most = frame->view.max_leaves;
-    const uint32_t least = frame->longest;
-    if (most == 0)
-        return;
-    frame->longest = least > UINT32_MAX / 4 ? UINT32_MAX : 4 * least;
-    uint32_t leaves = refine_count(frame, whole);
-    for (; leaves <= most && frame->longest > least; leaves += 3 * leaves / 16 + 1) {
-        const uint32_t less = frame->longest - (frame->longest >> 3);
-        frame->longest = less < least ? least : less;
-    }
-    while ((leaves = refine_count(frame, whole)) > most && frame->longest != UINT32_MAX) {
+    uint32_t leaves;
+    while (most > 0 && (leaves = refine_count(frame, whole, (uint64_t)3 * most)) > most &&
+           frame->longest != UINT32_MAX) {
         const uint32_t share_q7 = fix_share((uint64_t)(leaves - most) * 96, most, 192) + 4;
         frame->longest = sum_at_most(frame->longest, (frame->longest >> 7) * share_q7 + 1);
     }

@@ -239,8 +239,10 @@ static inline yb_level_t *refine_top(yb_level_t *level)
  */
 void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster);
 
-/* The leaves of the whole screen, or somewhat more. */
-uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole);
+/* The leaves of the whole screen, or somewhat more; where there are more than enough, any number
+ * above that.
+ */
+uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole, uint64_t enough);
 
 /* Notes in frame->rim which base triangles have an edge on the frame whose wall shows its outside.
  */
