@@ -10,23 +10,22 @@
 #include "refine.h"
 #include "relief.h"
 
-static inline uint32_t sum_at_most(uint32_t a, uint32_t b)
-{
-    return a > UINT32_MAX - b ? UINT32_MAX : a + b;
-}
-
 /* Raises the threshold of refinement until the frame keeps to its bound, by most of the share that
- * is too much: leaves go by a power of it between one, for slivers, and two. The count depends on
- * the view alone, so every band comes to the same threshold.
+ * is too much, as leaves go by a power of it between one, for slivers, and two; and by more from
+ * count to count, as there may be more triangles than that which are not split at all. The count
+ * depends on the view alone, so every band comes to the same threshold.
  */
 static void bound_leaves(yb_frame_t *frame, const refine_view_t *whole)
 {
     const uint32_t most = frame->view.max_leaves;
+    uint64_t spare_q7 = 4;
     uint32_t leaves;
     while (most > 0 && (leaves = refine_count(frame, whole, (uint64_t)3 * most)) > most &&
            frame->longest != UINT32_MAX) {
-        const uint32_t share_q7 = fix_share((uint64_t)(leaves - most) * 96, most, 192) + 4;
-        frame->longest = sum_at_most(frame->longest, (frame->longest >> 7) * share_q7 + 1);
+        const uint64_t share_q7 = fix_share((uint64_t)(leaves - most) * 96, most, 192) + spare_q7;
+        const uint64_t raised = frame->longest + (frame->longest * share_q7 >> 7) + 1;
+        frame->longest = raised < UINT32_MAX ? (uint32_t)raised : UINT32_MAX;
+        spare_q7 *= 2;
     }
 }
 

@@ -316,6 +316,20 @@ static void leaves_keep_to_their_bound(void **state)
                   1000.0 * (double)slowest / CLOCKS_PER_SEC);
 }
 
+/* What is not split at all may still be too much: then nothing is. */
+static void a_bound_below_the_mesh_leaves_it_as_it_is(void **state)
+{
+    (void)state;
+    const yb_screen_t screen = {128, 64, YB_GREY4};
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    view.max_leaves = 1;
+    yb_frame_begin(&frame, &map, &view, &screen);
+    draw(whole, 0, screen.height);
+    assert_int_equal(frame.longest, UINT32_MAX);
+    assert_in_range(frame.stats.refined, 2, map.triangle_count);
+}
+
 /* Leaves within four steps of the frame's western side. */
 static void count_western(void *context, const yb_point_t *const p[3])
 {
@@ -446,6 +460,7 @@ int main(void)
         cmocka_unit_test(culling_changes_no_pixel),
         cmocka_unit_test(what_is_drawn_is_handed_out),
         cmocka_unit_test(leaves_keep_to_their_bound),
+        cmocka_unit_test(a_bound_below_the_mesh_leaves_it_as_it_is),
         cmocka_unit_test(slivers_become_few),
         cmocka_unit_test(sane_views_have_levels_enough),
         cmocka_unit_test(water_hides_what_is_under_it),
