@@ -292,13 +292,13 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     find_lengths(frame, whole);
     for (int i = 0; i < frame->map->vertex_count; i++) {
         const yb_vertex_t *v = &frame->map->vertex[i];
-        yb_point_t point;
-        point.place = relief_place(v);
-        point.top_q8 = fix_max(v->z_q8, view->water_q8);
-        camera_see(frame, &point);
-        frame->seen[i].x_q4 = point.spot.x_q4;
-        frame->seen[i].y_q4 = point.spot.y_q4;
-        frame->seen[i].near = point.spot.near;
+        yb_point_t *point = &frame->root[0]; /* no triangle needs it yet */
+        point->place = relief_place(v);
+        point->top_q8 = fix_max(v->z_q8, view->water_q8);
+        camera_see(frame, point);
+        frame->seen[i].x_q4 = point->spot.x_q4;
+        frame->seen[i].y_q4 = point->spot.y_q4;
+        frame->seen[i].near = point->spot.near;
     }
 }
 

@@ -369,14 +369,15 @@ SELDOM bool root_misses(const yb_frame_t *frame, const refine_view_t *whole,
                         const yb_index_t *corner, const yb_vertex_t *const v[3], bool walls,
                         box_t *box)
 {
-    yb_point_t root[REFINE_POINTS]; /* and the walls' feet */
+    yb_point_t root[3];
+    yb_point_t foot[3];
     const yb_point_t *p[REFINE_POINTS];
     for (int i = 0; i < 3; i++) {
         p[i] = &root[i];
-        p[3 + i] = &root[3 + i];
+        p[3 + i] = &foot[i];
         camera_root(frame, corner[i], &root[i]);
         if (walls)
-            camera_drop(frame, &root[i], frame->base_q8, &root[3 + i]);
+            camera_drop(frame, &root[i], frame->base_q8, &foot[i]);
     }
     crowd_t crowd;
     crowd.p = p;
