@@ -15,7 +15,7 @@ typedef struct {
 } lines_scale_t;
 
 /* In line where speed counts more than size. */
-#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#if COPIES
 #define LINES_RECIPROCAL fix_reciprocal_here
 #else
 #define LINES_RECIPROCAL fix_reciprocal

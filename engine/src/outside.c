@@ -166,7 +166,7 @@ int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
 /* How far refinement can move a point of a triangle whose longest edge is of a class and halved so
  * often. Each part of an edge is of a class four lower and halved once less, and so is what is
  * split inside the triangle: a point moves by the noise of each class once. (relief_reach counts it
- * twice.) Rounding moves it by one unit of height more at each level.
+ * twice.) Rounding moves it by one unit of height more at each level, and one in all.
  */
 COPIED int32_t stray_of(const yb_map_t *map, int32_t bulge, int class, int often)
 {
@@ -286,7 +286,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
     const yb_point_t *const *p = part->point;
     const int often = (int)(refine_edges(part) >> 24);
     const int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
-#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#if COPIES
     /* Where speed counts more than size: of a box only the sides are looked at that it is beyond.
      */
     const yb_spot_t *a = &p[0]->spot;
