@@ -10,7 +10,9 @@
 enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
     LEAST_NEAR = 64,  /* in the view's own unit: what rounding does must stay small beside it */
-    LEAST_ZOOM_Q12 = 1024
+    LEAST_ZOOM_Q12 = 1024,
+    NEARER_Q4 = 60, /* what edges near the eye may be longer */
+    OPEN_TURN = 3 /* ground is open where a third of the way to it, or more, is along its normal */
 };
 
 /* --- Views ------------------------------------------------------------------------------------ */
@@ -125,6 +127,26 @@ static inline int shift_of(int32_t depth)
 static inline int32_t shifted(int32_t a, int shift)
 {
     return a * ((int32_t)1 << 10) >> shift;
+}
+
+/* A place as the eye sees it, before it is turned. */
+typedef struct {
+    int32_t x, y, z;
+} way_t;
+
+static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
+{
+    const int32_t *eye = frame->view.eye_q8;
+    return (way_t){
+        ((int32_t)(place & 0xffff) - eye[0]) >> frame->eye_shift,
+        ((int32_t)(place >> 16) - eye[1]) >> frame->eye_shift,
+        (((top_q8 * frame->view.exaggerate_q8) >> 8) - eye[2]) >> frame->eye_shift,
+    };
+}
+
+static inline int32_t depth_of(const yb_frame_t *frame, way_t way)
+{
+    return (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
 }
 
 /* --- The frame's constants -------------------------------------------------------------------- */
@@ -251,14 +273,35 @@ static void find_lift(yb_frame_t *frame, uint64_t whole, uint32_t bend)
     frame->lift_shift = (uint8_t)fix_max(shift - 10, 0);
 }
 
-/* An edge is split by its plan length, foreshortened in the direction of view: from 30 degrees
- * above the ground on not at all, on foot to a quarter, for hills rise above their ground. There
+/* What foreshortening leaves of lengths along the view: from 30 degrees above the ground on all,
+ * and never less than a quarter, for hills rise above their ground. Q14.
+ */
+static int32_t foreshortening(const yb_frame_t *frame)
+{
+    return fix_clamp(2 * fix_abs(frame->depth_z), 1 << 12, 1 << 14);
+}
+
+/* About a sixteenth of the screen's width. A smaller screen wants a little less: more of its
+ * triangles meet no pixel's centre. Made for as many on 128 and on 320 pixels, in a view of the
+ * whole map, which covers half of the screen. The nearer the eye, the more of it is covered, and
+ * the longer edges may be, so that a frame takes about as long.
+ */
+static uint32_t usual_edge(const yb_frame_t *frame)
+{
+    const int32_t width = frame->screen.width;
+    const int32_t far = 3 * fix_max(frame->map->east_q8, frame->map->north_q8) >> 3;
+    const int32_t near = fix_min(frame->near << frame->eye_shift, far);
+    return (uint32_t)(fix_max(89 * width / 96 - 15, (width + 1) >> 1) +
+                      NEARER_Q4 * (far - near) / far);
+}
+
+/* An edge is split by its plan length, foreshortened in the direction of view. Where it is,
  * triangles are wider too, so that they cover about as many pixels in every view. `whole` as in
  * find_lift.
  */
 static void find_lengths(yb_frame_t *frame, uint64_t whole)
 {
-    int32_t steep = fix_clamp(2 * fix_abs(frame->depth_z), 1 << 12, 1 << 14);
+    int32_t steep = foreshortening(frame);
     int32_t wide = (steep + (1 << 14)) >> 1;
     int32_t high = (steep * wide) >> 14;
     frame->along_x = (frame->right_y * high) >> 15;
@@ -267,13 +310,27 @@ static void find_lengths(yb_frame_t *frame, uint64_t whole)
     frame->across_y = (frame->right_y * wide) >> 15;
     /* focal * 2 length_q7 / depth > edge, with depth as 65535 near / (1/depth). */
     uint32_t edge_q4 = frame->view.edge_q4;
-    /* About a sixteenth of the width. A smaller screen wants a little less: more of its triangles
-     * meet no pixel's centre. Made for as many on 128 and on 320 pixels. */
-    int32_t width = frame->screen.width;
     if (edge_q4 == 0)
-        edge_q4 = (uint32_t)fix_max(89 * width / 96 - 15, (width + 1) >> 1);
+        edge_q4 = usual_edge(frame);
     frame->thin_q4 = (int32_t)edge_q4;
     frame->longest = fix_share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
+}
+
+/* How far the ground at a vertex is turned to the eye: the way there along the upward normal
+ * (-gx, -gy, 1), over its length, times `turn`. The normal's components are below 2^2 and, raised,
+ * 2^5, the way's below 2^16: below 2^23, and times `turn`, which is up to 3 * 2^2, and 4, 2^29.
+ */
+static uint8_t open_of(const yb_frame_t *frame, const yb_vertex_t *v, int32_t top_q8, int32_t turn)
+{
+    const way_t way = way_to(frame, relief_place(v), top_q8);
+    int32_t rise = 0; /* of the ground on that way; of water, none */
+    if (top_q8 == v->z_q8)
+        rise = ((way.x * v->gx_q11 + way.y * v->gy_q11) >> 11) * frame->view.exaggerate_q8 >> 8;
+    const int32_t turned = turn * (rise - way.z);
+    const int32_t length = fix_max(fix_length(way.x, way.y), fix_abs(way.z));
+    if (turned >= length)
+        return CAMERA_OPEN;
+    return (uint8_t)(4 * turned <= length ? CAMERA_OPEN / 4 : turned * CAMERA_OPEN / length);
 }
 
 void camera_begin(yb_frame_t *frame, int32_t stray)
@@ -290,6 +347,7 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
     find_lift(frame, whole, (uint32_t)bend);
     find_lengths(frame, whole);
+    const int32_t turn = OPEN_TURN * ((int32_t)1 << 14) / foreshortening(frame);
     for (int i = 0; i < frame->map->vertex_count; i++) {
         const yb_vertex_t *v = &frame->map->vertex[i];
         yb_point_t *point = &frame->root[0]; /* no triangle needs it yet */
@@ -299,30 +357,11 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
         frame->seen[i].x_q4 = point->spot.x_q4;
         frame->seen[i].y_q4 = point->spot.y_q4;
         frame->seen[i].near = point->spot.near;
+        frame->open[i] = open_of(frame, v, point->top_q8, turn);
     }
 }
 
 /* --- The screen ------------------------------------------------------------------------------- */
-
-/* A place as the eye sees it, before it is turned. */
-typedef struct {
-    int32_t x, y, z;
-} way_t;
-
-static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_q8)
-{
-    const int32_t *eye = frame->view.eye_q8;
-    return (way_t){
-        ((int32_t)(place & 0xffff) - eye[0]) >> frame->eye_shift,
-        ((int32_t)(place >> 16) - eye[1]) >> frame->eye_shift,
-        (((top_q8 * frame->view.exaggerate_q8) >> 8) - eye[2]) >> frame->eye_shift,
-    };
-}
-
-static inline int32_t depth_of(const yb_frame_t *frame, way_t way)
-{
-    return (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> 14;
-}
 
 void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
 {

@@ -16,6 +16,15 @@ typedef struct {
     int32_t right, up, depth; /* within 2^17; in quarters, where clip.c cuts */
 } camera_point_t;
 
+/* How open to the eye the ground at a vertex is: so much of the length of an edge there counts for
+ * whether it is split. All of it, but for ground that is seen nearly along its slope, and a quarter
+ * of it for ground that is seen from behind, and mostly hidden.
+ */
+enum {
+    CAMERA_OPEN_BITS = 7,
+    CAMERA_OPEN = 1 << CAMERA_OPEN_BITS
+};
+
 /* Cuts frame's view to its limits: see yb_view_t. */
 void camera_clamp(yb_frame_t *frame);
 
@@ -51,6 +60,7 @@ static inline void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t
     point->spot.x_q4 = seen->x_q4;
     point->spot.y_q4 = seen->y_q4;
     point->spot.near = seen->near;
+    point->spot.open = frame->open[i];
 }
 
 /* The point straight above or below `point` at height z, to be drawn there, under water or not. */

@@ -90,7 +90,10 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
-    yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)fix_length(across, along));
+    const int32_t open = fix_max(a->spot.open, b->spot.open);
+    const int32_t length = fix_length(across, along) * open >> CAMERA_OPEN_BITS;
+    const yb_edge_t turned = open < CAMERA_OPEN ? REFINE_TURNED : 0;
+    yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)length | turned);
     if (edge < REFINE_ONCE)
         return edge;
     dx >>= 1; /* both are even: relief_class without signs */

@@ -89,7 +89,7 @@ yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *scree
     const size_t at_frame = aligned(
         map, yb_map_packed_at(map) + triangles * (sizeof *map->across + sizeof *map->triangle));
     const size_t at_band =
-        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t) +
+        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * (sizeof(yb_seen_t) + 1) +
                          triangles * (sizeof(yb_triangle_t) + 1));
     const size_t row = yb_band_row_bytes(screen);
     if (row == 0 || bytes < at_band + row)
@@ -116,6 +116,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->screen = *screen;
     frame->order = (yb_triangle_t *)(void *)&frame->seen[map->vertex_count];
     frame->bins = (uint8_t *)&frame->order[map->triangle_count];
+    frame->open = frame->bins + map->triangle_count;
     camera_clamp(frame);
     int32_t stray = farthest_stray(frame);
     camera_begin(frame, stray);

@@ -184,7 +184,7 @@ static inline int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *pa
 {
     yb_edge_t longest = 0; /* or one that is left whole, and shorter */
     for (int i = 0; i < 3; i++) {
-        const yb_edge_t class = part->edge[i] & 0xff0000;
+        const yb_edge_t class = part->edge[i] & REFINE_CLASS;
         longest = class > longest ? class : longest;
     }
     return stray_of(frame->map, part->bulge, refine_class(longest),

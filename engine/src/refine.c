@@ -57,12 +57,14 @@ static inline yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a,
     return ask ? ask_anew(frame, a, b, half) : half;
 }
 
-/* The line from the midpoint m of ab to c, where bc is split but not ca: about half of bc, for ca
- * is short, and split as that is, as far as its midpoints are on the lattice.
+/* The line from the midpoint m of ab to c, where bc is split but not ca: about half of bc, if ca is
+ * short, and split as that is, as far as its midpoints are on the lattice; else left whole.
  */
 static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const yb_point_t *c,
-                            yb_edge_t bc)
+                            yb_edge_t bc, yb_edge_t ca)
 {
+    if ((ca & REFINE_TURNED) != 0)
+        return 0;
     yb_edge_t mc = refine_half(bc);
     if (bc >= REFINE_AGAIN) /* unless the half is so short that it has no class */
         return refine_class(mc) >= 0 ? ask_anew(frame, m, c, mc) : mc & 0xffffff;
@@ -154,7 +156,7 @@ static yb_level_t *split_two(const yb_frame_t *frame, const refine_view_t *view,
     refine_middle(frame, view, b, c, bc, n);
     halve(frame, a, m, b, part->edge[0], &am, &mb);
     halve(frame, b, n, c, bc, &bn, &nc);
-    const yb_edge_t mc = cross_edge(frame, m, c, bc) & inside;
+    const yb_edge_t mc = cross_edge(frame, m, c, bc, ca) & inside;
     yb_part_t *const with_b = eye_b > half ? part : &level[0].rest;
     yb_part_t *const first = eye_b > half ? &level[1].rest : part;
     yb_part_t *const second = eye_b > half ? &level[0].rest : &level[1].rest;

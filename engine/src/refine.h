@@ -53,16 +53,19 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
 
 /* --- Edges and base triangles: edges.c -------------------------------------------------------- */
 
-/* An edge: its plan length in 1/128 step, foreshortened as the view does it, in the lower 16 bits;
- * its length class (yb_map_t.noise) and 4 in the next 8; how often it is to be halved in the upper
- * 8, or REFINE_AGAIN.
+/* An edge: its plan length in 1/128 step, foreshortened as the view does it, and as far as it is
+ * open to the eye, in the lower 16 bits; its length class (yb_map_t.noise) and 4 in the next 7;
+ * REFINE_TURNED, if it is not all open; how often it is to be halved in the upper 8, or
+ * REFINE_AGAIN.
  */
+#define REFINE_CLASS ((yb_edge_t)0x7f << 16)
+#define REFINE_TURNED ((yb_edge_t)1 << 23) /* it may be long, and yet left whole */
 #define REFINE_ONCE ((yb_edge_t)1 << 24)
 #define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
 
 static inline int refine_class(yb_edge_t edge)
 {
-    return (int)(edge >> 16 & 0xff) - 4;
+    return (int)(edge >> 16 & 0x7f) - 4;
 }
 
 /* Either half of an edge that is split, to be asked anew if that is REFINE_AGAIN. Its class is its

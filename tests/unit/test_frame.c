@@ -278,7 +278,7 @@ static void what_is_drawn_is_handed_out(void **state)
         CHECK(next == handed_count, "view %d: triangle %d is not drawn", round, (int)next);
         all += handed_count;
     }
-    assert_true(all > 60000);
+    assert_true(all > 40000);
 }
 
 /* --- Bounds ----------------------------------------------------------------------------------- */

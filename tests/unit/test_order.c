@@ -59,7 +59,9 @@ static void draw_number(void *context, const yb_point_t *const p[3])
         (void)clip_draw(&frame, raster, p, value);
 }
 
-/* The nearest that is met at each pixel, in the rows of a raster. */
+/* The nearest that is met at each pixel, in the rows of a raster, beyond where it is cut at the
+ * near distance: corners are rounded to whole units there.
+ */
 static void find_nearest(const raster_t *raster, double *nearest)
 {
     for (int i = 0; i < leaf_count; i++) {
@@ -81,7 +83,7 @@ static void find_nearest(const raster_t *raster, double *nearest)
             for (int x = (int)box[0]; x <= box[1]; x++) {
                 bool met;
                 const double depth = ray_depth(&frame, leaf->p, x + 0.5, y + 0.5, &met);
-                if (met && depth >= frame.near && depth < nearest[y * WIDTH + x])
+                if (met && depth >= frame.near + 4 && depth < nearest[y * WIDTH + x])
                     nearest[y * WIDTH + x] = depth;
             }
         }
