@@ -239,9 +239,10 @@ typedef union {
         yb_index_t beside[YB_MAX_REGIONS]; /* a region that it shares a line with */
     };
     struct {                               /* links.c, saddles.c */
+        /* of a point, the peak that it is to be linked with; of a peak, its line or one joined to
+         * that */
+        yb_index_t partner[YB_MAX_VERTICES];
         yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
-        yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
-        yb_index_t group[YB_MAX_CONTOURS]; /* of a peak, its line or one joined to that */
     };
     /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
     uint32_t way[YB_MAX_VERTICES];
