@@ -30,9 +30,16 @@ int relief_class(int32_t dx, int32_t dy)
     return relief_square_class(relief_half_square(dx, dy));
 }
 
+#if !COPIES
+const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle)
+{
+    return yb_map_triangle(map, triangle);
+}
+#endif
+
 void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
 {
-    const yb_index_t *at = yb_map_triangle(map, triangle);
+    const yb_index_t *at = relief_triangle(map, triangle);
     for (int i = 0; i < 3; i++)
         corner[i] = &map->vertex[at[i]];
 }

@@ -144,6 +144,16 @@ static inline bool relief_keeps_all(int32_t scale, int class, int32_t rise)
     return (scale + (int32_t)(fix_size(rise) >> 1)) << 4 <= ((int32_t)31 << (class >> 2)) - 32;
 }
 
+/* yb_map_triangle, which is long: in line only where speed counts more than size. */
+#if COPIES
+static inline const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle)
+{
+    return yb_map_triangle(map, triangle);
+}
+#else
+const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle);
+#endif
+
 /* The corners of a triangle. */
 void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3]);
 
@@ -175,6 +185,8 @@ static inline int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bo
     int32_t reach = map->reach_q8[bound->longest];
     if (reach == UINT16_MAX)
         return bound->bulge_q8 + RELIEF_MOST_REACH_Q8;
+    if (shortest <= 0) /* all count */
+        return bound->bulge_q8 + reach;
     /* Classes of the halved edges go down by four; those below the shortest do not count. */
     int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
     if (uncounted >= 0)
