@@ -31,6 +31,11 @@ int relief_class(int32_t dx, int32_t dy)
 }
 
 #if !COPIES
+const yb_across_t *relief_across(const yb_map_t *map)
+{
+    return yb_map_across(map);
+}
+
 const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle)
 {
     return yb_map_triangle(map, triangle);

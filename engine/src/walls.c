@@ -50,7 +50,7 @@ void walls_begin(yb_frame_t *frame)
     int32_t side[2];
     if (!frame->view.walls || !find_sides(frame, side))
         return;
-    const yb_across_t *const across = yb_map_across(map);
+    const yb_across_t *const across = relief_across(map);
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (!is_on_frame(across[t]))
             continue;
