@@ -3,7 +3,7 @@
  * Three steps, all by flips: every vertex is inserted into the Delaunay triangulation of those
  * before it; every contour edge is forced in; what is not fixed is made Delaunay again. Nothing
  * needs a stack or a list: legalising walks round the new vertex, and forcing an edge in removes
- * the vertices of its channel one by one (see reach).
+ * the vertices of its channel one by one (see mesh_reach).
  *
  * The result does not depend on the order of work: where four points lie on a circle, the diagonal
  * goes through the one with the smallest index. That is the triangulation of points lifted to the
@@ -280,12 +280,12 @@ static bool walk_channel(yb_load_t *load, half_t e, int a, int b, bool narrow)
     return false; /* two contours cross */
 }
 
-/* Can ab be an edge? To `force` it, it is made one and marked: the triangles it crosses form a
+/* To `force` ab, it is made an edge and marked: the triangles it crosses form a
  * channel; each round takes one vertex off the channel's sides (those edges that it had across the
  * channel are flipped to its neighbours), until none is left between a and b. Each vertex leaves
  * once: it always ends. What can be an edge can be forced.
  */
-static bool reach(yb_load_t *load, int a, int b, bool force)
+bool mesh_reach(yb_load_t *load, int a, int b, bool force)
 {
     for (;;) {
         half_t e = first_spoke(load, a);
@@ -306,16 +306,6 @@ static bool reach(yb_load_t *load, int a, int b, bool force)
         if (!force)
             return true;
     }
-}
-
-bool mesh_force_edge(yb_load_t *load, int a, int b)
-{
-    return reach(load, a, b, true);
-}
-
-bool mesh_sees(yb_load_t *load, int a, int b)
-{
-    return reach(load, a, b, false);
 }
 
 bool mesh_link(yb_load_t *load, int a, int b)
