@@ -165,9 +165,6 @@ int32_t half_length(const yb_load_t *load, half_t e);
 /* Height at the end of a half less that at its origin. */
 int32_t rise_of(const yb_load_t *load, half_t e);
 
-/* Do two vertices lie at one place? */
-bool same_place(const yb_vertex_t *a, const yb_vertex_t *b);
-
 /* The place half way between two vertices, and the middle of an edge, at the height of its
  * beginning; without slopes.
  */
