@@ -562,7 +562,8 @@ static int take_field(yb_load_t *load)
         return take_corner_or_spot(load, value);
     if (load->state < SECTIONS)
         return take_height(load, value);
-    load->section = value != 0 ? 0 : SECTION_LAST;
+    if (value != 0)
+        load->section = 0;
     return END_OF_RELIEF;
 }
 
