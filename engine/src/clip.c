@@ -74,8 +74,7 @@ static int clip_plane(const yb_frame_t *frame, corner_t *corner, int count, int 
                 from = p;
                 to = q;
             }
-            cut(from, to, (int32_t)(((uint64_t)most << 20) / (uint64_t)across),
-                left++);
+            cut(from, to, (int32_t)(((uint64_t)most << 20) / (uint64_t)across), left++);
         }
         inside = next;
     }

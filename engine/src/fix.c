@@ -62,7 +62,7 @@ uint32_t fix_exp2_q11(int32_t e_q11)
         return 0;
     uint32_t i = (uint32_t)e_q11 >> 6 & 31;
     uint32_t mantissa = 32768 + between(&exp_table[i], (uint32_t)e_q11 & 63, 6); /* Q15, below 2 */
-    const int down = 15 - exponent; /* -16 .. 16 */
+    const int down = 15 - exponent;                                              /* -16 .. 16 */
     return down > 0 ? (mantissa + ((uint32_t)1 << down >> 1)) >> down : mantissa << -down;
 }
 

@@ -140,7 +140,8 @@ static inline bool relief_keeps_all(int32_t scale, int class, int32_t rise)
     return (scale + (int32_t)(fix_size(rise) >> 1)) << 4 <= ((int32_t)31 << (class >> 2)) - 32;
 }
 
-/* yb_map_across and yb_map_triangle, which are long: in line only where speed counts more than size.
+/* yb_map_across and yb_map_triangle, which are long: in line only where speed counts more than
+ * size.
  */
 #if COPIES
 static inline const yb_across_t *relief_across(const yb_map_t *map)

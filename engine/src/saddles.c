@@ -49,8 +49,8 @@ static int32_t crossing(const yb_load_t *load, int a, int b, int p, int q)
 {
     int32_t from = orientation(load, p, q, a);
     int32_t to = orientation(load, p, q, b);
-    if ((from > 0) == (to > 0) ||
-        (orientation(load, a, b, p) > 0) == (orientation(load, a, b, q) > 0))
+    if (!fix_parted(from, to) ||
+        !fix_parted(orientation(load, a, b, p), orientation(load, a, b, q)))
         return -1;
     return fix_scale(from, 65536, from - to);
 }
@@ -231,7 +231,8 @@ static bool next_pair(const yb_load_t *load, pair_t *pair)
                 continue;
             int32_t apart = edge_length(load, load->contour[a].first, load->contour[b].first);
             uint32_t spots = (uint32_t)a << 16 | (uint32_t)b;
-            if (apart < next.apart && (apart > pair->apart || (apart == pair->apart && spots > pair->spots)))
+            if (apart < next.apart &&
+                (apart > pair->apart || (apart == pair->apart && spots > pair->spots)))
                 next = (pair_t){apart, spots};
         }
     }
@@ -248,7 +249,8 @@ static void join_groups(yb_load_t *load, yb_index_t from, yb_index_t to)
 }
 
 /* Nearest pairs first, until all are joined or too many could not be (7). What is left, the
- * skeleton joins. partner[s] is the line that spot height s stands behind, or one that is joined to it.
+ * skeleton joins. partner[s] is the line that spot height s stands behind, or one that is joined to
+ * it.
  */
 static bool join_level(yb_load_t *load)
 {

@@ -136,13 +136,6 @@ static int32_t rise_inside(const yb_load_t *load, int region, int32_t h, const f
 
 /* --- Where ----------------------------------------------------------------------------------- */
 
-static bool is_acute(const yb_load_t *load, half_t e)
-{
-    angle_t angle;
-    find_angle(load, e, &angle);
-    return angle.dot > 0;
-}
-
 /* Adds a vertex at the widest place of a region: the middle of the longest edge that no line runs
  * along, for that is the chord of an empty circle. If just one of the two triangles at it is acute,
  * the circle's centre lies in that one, and so does the place: half way on to the third corner. A
@@ -154,15 +147,18 @@ static bool add_summit(yb_load_t *load, int region, const flat_t *flat, int32_t 
     int p = load->vertex_count;
     bool inside = true;
     yb_vertex_t summit;
-    if (flat->width >= FREE) {
-        half_t twin = twin_of(load, e);
-        bool there = is_acute(load, twin);
-        inside = is_acute(load, e) != there;
-        if (inside && there)
-            e = twin;
-    }
     find_middle(load, e, &summit);
     summit.z_q8 = z;
+    if (flat->width >= FREE) {
+        angle_t here;
+        angle_t there;
+        half_t twin = twin_of(load, e);
+        find_angle(load, e, &here);
+        find_angle(load, twin, &there);
+        inside = fix_parted(here.dot, there.dot);
+        if (inside && there.dot > 0)
+            e = twin;
+    }
     if (inside) { /* half and quarter weights keep to the quarter-step lattice */
         find_middle_of(&summit, vertex_of(load, apex_of(load, e)), &summit);
         e = place_inside(e);

@@ -238,7 +238,7 @@ typedef union {
         yb_index_t flat[YB_MAX_REGIONS];   /* is a region of one height? */
         yb_index_t beside[YB_MAX_REGIONS]; /* a region that it shares a line with */
     };
-    struct {                               /* links.c, saddles.c */
+    struct { /* links.c, saddles.c */
         /* of a point, the peak that it is to be linked with; of a peak, its line or one joined to
          * that */
         yb_index_t partner[YB_MAX_VERTICES];
