@@ -282,10 +282,16 @@ typedef struct {
     union {
         struct { /* compact.c */
             uint32_t range, code;
-            int x, y, start_x, start_y, length, height;
-            yb_ring_t last; /* step */
-            int32_t places_left, base;
-            int start_way;
+            int x, y;
+            int number; /* the length of a step, or a height before its sign */
+            int32_t base;
+            union {
+                struct { /* while lines come */
+                    int start_x, start_y, start_way;
+                    yb_ring_t last; /* step */
+                };
+                int32_t places_left; /* while spot heights do */
+            };
         };
         struct { /* paper.c */
             uint32_t bits, flags;
