@@ -102,8 +102,8 @@ void mesh_legalise(yb_load_t *load, int p)
     half_t e = first_spoke(load, p);
     int first_end = end_of(load, e);
     do {
-        while (illegal(load, next_of(e))) {
-            flip(load, next_of(e)); /* its triangle is now (a d p): the first of the two new ones */
+        for (half_t far = next_of(e); illegal(load, far); far = e - 2) {
+            flip(load, far); /* its triangle is now (a d p): the first of the two new ones */
             e = place_inside(e) - 1;
         }
         e = spoke_left(load, e);
@@ -146,11 +146,9 @@ static void split(yb_load_t *load, half_t place, int p)
     int part[3] = {NO_TRIANGLE, t, (int)map->triangle_count++};
     if (!on_side)
         part[0] = (int)map->triangle_count++;
-    int before = 2;
-    for (int k = 0; k < 3; k++) {
-        int after = next3(k);
+    for (int k = 0, before = 2; k < 3; before = k++) {
+        int after = 3 - before - k;
         facet_t facet = {{f.v[k], f.v[after], p}, {f.across[k], part[after], part[before]}};
-        before = k;
         if (part[k] == NO_TRIANGLE)
             continue;
         load->region[part[k]] = load->region[t];
@@ -231,17 +229,6 @@ static void mark(yb_load_t *load, half_t e)
     put_facet(load, t, &facet);
 }
 
-/* The half of the triangle on the left of spoke e that leads from the spoke's beginning to b, or
- * back; NO_HALF: none.
- */
-static half_t edge_to(const yb_load_t *load, half_t e, int b)
-{
-    if (end_of(load, e) == b)
-        return e;
-    e = last_of(e);
-    return origin_of(load, e) == b ? e : NO_HALF;
-}
-
 /* Walks along the channel of ab, which is entered from a across e. To `narrow` it takes one vertex
  * off it: the first at which a side of the channel bulges away from ab. There is one: that farthest
  * from ab. False: a vertex or a marked edge is in the way.
@@ -290,8 +277,9 @@ bool mesh_reach(yb_load_t *load, int a, int b, bool force)
     for (;;) {
         half_t e = first_spoke(load, a);
         for (; e != NO_HALF; e = spoke_after(load, e)) {
-            half_t edge = edge_to(load, e, b);
-            if (edge != NO_HALF) {
+            /* Does a side of the triangle on the spoke's left lead to b, or back? */
+            half_t edge = end_of(load, e) == b ? e : last_of(e);
+            if (edge == e || origin_of(load, edge) == b) {
                 if (force)
                     mark(load, edge);
                 return true;
