@@ -61,11 +61,12 @@ APART edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
     return (edge_t){dx, dy, relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, dx, dy)};
 }
 
+#if !COPIES
 int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_t rise)
 {
-    int32_t limit = fix_max(fix_length(dx, dy) - (fix_abs(rise) >> 1), 0);
-    return fix_clamp(noise, -limit, limit);
+    return relief_limit_here(noise, dx, dy, rise);
 }
+#endif
 
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle)

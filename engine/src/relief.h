@@ -112,7 +112,19 @@ static inline int32_t relief_half_bulge(int32_t bend_x, int32_t bend_y, int32_t 
 /* Gravity (paper, 3.3): no half edge may become steeper than 2 by its noise; a chord that already
  * is gets none. Half edges are L/2 long and rise by half the chord's rise, plus or minus the noise.
  */
+static inline int32_t relief_limit_here(int32_t noise, int32_t dx, int32_t dy, int32_t rise)
+{
+    int32_t limit = fix_max(fix_length(dx, dy) - (fix_abs(rise) >> 1), 0);
+    return fix_clamp(noise, -limit, limit);
+}
+
+/* The same; a call where size counts more than speed, for noise is within its limit nearly always.
+ */
+#if COPIES
+#define relief_limit relief_limit_here
+#else
 int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_t rise);
+#endif
 
 /* The noise at a midpoint of an edge of a class: scale < 2^16, noise within 2^9, so the product is
  * within 2^25.

@@ -54,8 +54,9 @@ void walls_begin(yb_frame_t *frame)
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (!is_on_frame(across[t]))
             continue;
+        const yb_index_t *corner = relief_triangle(map, t);
         for (int i = 0; i < 3; i++) {
-            if (faces(map, relief_triangle(map, t), i, side))
+            if (faces(map, corner, i, side))
                 frame->rim[t >> 3] = (uint8_t)(frame->rim[t >> 3] | 1 << (t & 7));
         }
     }
