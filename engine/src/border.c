@@ -74,6 +74,11 @@ APART int32_t interpolate(const yb_load_t *load, const yb_vertex_t *corner)
     return (int32_t)((sum + whole / 2) / whole) - YB_MAX_HEIGHT_Q8;
 }
 
+static bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
+{
+    return a->x_q8 == b->x_q8 && a->y_q8 == b->y_q8;
+}
+
 /* Makes corner k a vertex, unless a line ends there. */
 static bool place_corner(yb_load_t *load, int k)
 {

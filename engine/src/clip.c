@@ -16,11 +16,6 @@ typedef struct {
     const yb_spot_t *spot; /* a corner's own, NULL where it was cut or has none */
 } corner_t;
 
-typedef struct {
-    corner_t corner[MOST_CORNERS + 1]; /* before the last plane room for two more */
-    int count;
-} polygon_t;
-
 /* How far inside a plane a point is; any unit. Coordinates are below 2^20, factors 2^17. Whatever
  * has a spot is inside, however it was rounded: else of two triangles with a common edge one would
  * be cut and the other not.
@@ -53,23 +48,20 @@ static void cut(const corner_t *from, const corner_t *to, int32_t part_q20, corn
 }
 
 /* Cuts off what is outside a plane, in place: a convex polygon leaves a plane's inner side once, so
- * what is written is at most one corner ahead of what is read, and that has moved up by one.
+ * what is written is at most one corner ahead of what is read, and that has moved up by one. How
+ * many corners are left?
  */
-static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
+static int clip_plane(const yb_frame_t *frame, corner_t *corner, int count, int plane)
 {
-    int count = polygon->count;
-    corner_t *corner = polygon->corner;
     memmove(&corner[1], &corner[0], (size_t)count * sizeof *corner);
     corner[count + 1] = corner[1];
-    polygon->count = 0;
+    corner_t *left = corner;
     int64_t inside = inside_of(frame, &corner[1], plane);
-    for (int i = 1; i <= count; i++) {
-        const corner_t *p = &corner[i];
-        const corner_t *q = &corner[i + 1];
+    for (const corner_t *p = &corner[1]; p <= &corner[count]; p++) {
+        const corner_t *q = p + 1;
         int64_t next = inside_of(frame, q, plane);
         if (inside >= 0)
-            corner[polygon->count++] = *p;
-        /* From inside to outside, so that it does not matter which is p. */
+            *left++ = *p;
         /* From inside to outside, so that it does not matter which is p. */
         if ((inside ^ next) < 0) {
             int64_t most = next;
@@ -82,11 +74,11 @@ static void clip_plane(const yb_frame_t *frame, polygon_t *polygon, int plane)
                 from = p;
                 to = q;
             }
-            cut(from, to, (int32_t)(((uint64_t)most << 20) / (uint64_t)across),
-                &corner[polygon->count++]);
+            cut(from, to, (int32_t)(((uint64_t)most << 20) / (uint64_t)across), left++);
         }
         inside = next;
     }
+    return (int)(left - corner);
 }
 
 /* A corner with a spot may lie beyond a plane that it counts as inside of, and so may what was cut
@@ -109,22 +101,22 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
                uint16_t pixel)
 {
-    polygon_t polygon;
-    polygon.count = 3;
+    corner_t polygon[MOST_CORNERS + 1]; /* before the last plane room for two more */
+    int count = 3;
     for (int i = 0; i < 3; i++) {
-        corner_t *to = &polygon.corner[i];
+        corner_t *to = &polygon[i];
         camera_view(frame, corner[i]->place, corner[i]->top_q8, &to->at);
         to->at.right *= 1 << FINER;
         to->at.up *= 1 << FINER;
         to->at.depth *= 1 << FINER;
         to->spot = corner[i]->spot.near > 0 ? &corner[i]->spot : NULL;
     }
-    for (int plane = 0; plane < PLANES && polygon.count > 0; plane++)
-        clip_plane(frame, &polygon, plane);
+    for (int plane = 0; plane < PLANES && count > 0; plane++)
+        count = clip_plane(frame, polygon, count, plane);
     yb_spot_t fan[3];
     bool drawn = false;
-    for (int i = 0; i < polygon.count; i++) {
-        see_corner(frame, &polygon.corner[i], &fan[fix_min(i, 2)]);
+    for (int i = 0; i < count; i++) {
+        see_corner(frame, &polygon[i], &fan[fix_min(i, 2)]);
         if (i < 2)
             continue;
         if (raster_draw(raster, &fan[0], &fan[1], &fan[2], pixel) != RASTER_NOTHING)

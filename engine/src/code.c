@@ -110,10 +110,9 @@ static yb_status_t take_first(yb_load_t *load, uint8_t byte)
     load->profile = byte & 15;
     if (byte >> 4 != YB_FORMAT_VERSION || load->profile > YB_COMPACT)
         return YB_ERR_VERSION;
+    load->section = SECTION_LAST; /* unless the relief says that some follow */
     if (load->profile == YB_COMPACT)
         compact_begin(load);
-    else
-        paper_begin(load);
     load->part = RELIEF;
     return YB_MORE;
 }

@@ -28,8 +28,7 @@ YB_MUST_CHECK bool add_point(yb_load_t *load, int32_t x, int32_t y, int32_t unit
  */
 YB_MUST_CHECK bool settle_height(const yb_map_t *map, uint32_t rest_64th_m, int32_t *height);
 
-/* Get ready for the byte after the first one. */
-void paper_begin(yb_load_t *load);
+/* Gets ready for the byte after the first one. */
 void compact_begin(yb_load_t *load);
 
 #endif

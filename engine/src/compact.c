@@ -367,7 +367,7 @@ static int take_start(yb_load_t *load)
 
 static int take_place(yb_load_t *load, int rest)
 {
-    int n = load->length;
+    int n = load->number;
     int dx = 0;
     int dy = 0;
     int place = (ring_ahead(load->last, n) + load->sector * n + rest) % (8 * n);
@@ -414,12 +414,12 @@ static int take_line(yb_load_t *load, int value)
     case WAY:
         return take_way(load, signed_of(value));
     case LENGTH:
-        load->length = value + 1;
+        load->number = value + 1;
         load->at = (uint16_t)(load->turn_context * TURN_MODELS);
         return value < 255 ? next : YB_ERR_CORRUPT;
     case SECTOR:
         load->sector = (uint8_t)value;
-        load->at = (uint16_t)(load->length - 1);
+        load->at = (uint16_t)(load->number - 1);
         return next;
     case PLACE:
         return take_place(load, value);
@@ -507,15 +507,15 @@ static int take_height(yb_load_t *load, int value)
 {
     int state = load->state;
     if ((state - LINE_HEIGHT) % 2 == 0) {
-        load->height = value;
+        load->number = value;
         if (value != 0)
             return state + 1;
     } else if (value != 0) {
-        load->height = -load->height;
+        load->number = -load->number;
     }
     bool of_line = state <= LINE_DOWN;
     int32_t units =
-        height_near(load) + (int32_t)load->height * (1 << (of_line ? load->interval : 0));
+        height_near(load) + (int32_t)load->number * (1 << (of_line ? load->interval : 0));
     if (state >= CORNER_HEIGHT && state <= CORNER_DOWN)
         return take_corner_height(load, units);
     if (!begin_contour(load, units))
@@ -562,7 +562,8 @@ static int take_field(yb_load_t *load)
         return take_corner_or_spot(load, value);
     if (load->state < SECTIONS)
         return take_height(load, value);
-    load->section = value != 0 ? 0 : SECTION_LAST;
+    if (value != 0)
+        load->section = 0;
     return END_OF_RELIEF;
 }
 

@@ -252,7 +252,7 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                  yb_part_t *part, bool all)
 {
-    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    const yb_index_t *corner = relief_triangle(frame->map, triangle);
     const yb_vertex_t *v[3];
     int beyond = all ? 0 : REFINE_NOWHERE;
     for (int i = 0; i < 3; i++) {

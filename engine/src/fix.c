@@ -61,9 +61,9 @@ uint32_t fix_exp2_q11(int32_t e_q11)
     if (exponent < -1)
         return 0;
     uint32_t i = (uint32_t)e_q11 >> 6 & 31;
-    uint32_t mantissa = 32768 + between(&exp_table[i], (uint32_t)e_q11 & 63, 6); /* Q15, 1 .. 2 */
-    uint64_t power = (((uint64_t)mantissa << (exponent + 1)) + 32768) >> 16;
-    return power > UINT32_MAX ? UINT32_MAX : (uint32_t)power;
+    uint32_t mantissa = 32768 + between(&exp_table[i], (uint32_t)e_q11 & 63, 6); /* Q15, below 2 */
+    const int down = 15 - exponent;                                              /* -16 .. 16 */
+    return down > 0 ? (mantissa + ((uint32_t)1 << down >> 1)) >> down : mantissa << -down;
 }
 
 int64_t fix_wide(int32_t a, int32_t b)

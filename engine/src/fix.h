@@ -48,6 +48,12 @@ static inline int32_t fix_max(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
+/* Is one of two numbers above 0, and the other one not? Both are above INT32_MIN. */
+static inline bool fix_parted(int32_t a, int32_t b)
+{
+    return ((a - 1) ^ (b - 1)) < 0;
+}
+
 static inline int32_t fix_clamp(int32_t a, int32_t low, int32_t high)
 {
     return a < low ? low : a > high ? high : a;

@@ -126,11 +126,11 @@ static void fan(yb_load_t *load, const yb_contour_t *line)
     for (int p = line->first; p < end; p++) {
         const yb_contour_t *ruler = ruler_of(load, p, NULL);
         bool linked = ruler != NULL && !by_a_ridge(load, p, ruler->first);
-        load->scratch->wish[p] = (yb_index_t)(linked ? ruler->first : p);
+        load->scratch->partner[p] = (yb_index_t)(linked ? ruler->first : p);
     }
     for (int p = line->first; p < end; p++) {
-        if (load->scratch->wish[p] != p)
-            mesh_link(load, p, load->scratch->wish[p]);
+        if (load->scratch->partner[p] != p)
+            mesh_link(load, p, load->scratch->partner[p]);
     }
 }
 

@@ -189,11 +189,6 @@ uint32_t edge_key(const yb_load_t *load, half_t e)
     return a < b ? a << 16 | b : b << 16 | a;
 }
 
-bool same_place(const yb_vertex_t *a, const yb_vertex_t *b)
-{
-    return a->x_q8 == b->x_q8 && a->y_q8 == b->y_q8;
-}
-
 void find_middle_of(const yb_vertex_t *a, const yb_vertex_t *b, yb_vertex_t *middle)
 {
     middle->x_q8 = fix_middle(a->x_q8, b->x_q8);

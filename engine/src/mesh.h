@@ -165,9 +165,6 @@ int32_t half_length(const yb_load_t *load, half_t e);
 /* Height at the end of a half less that at its origin. */
 int32_t rise_of(const yb_load_t *load, half_t e);
 
-/* Do two vertices lie at one place? */
-bool same_place(const yb_vertex_t *a, const yb_vertex_t *b);
-
 /* The place half way between two vertices, and the middle of an edge, at the height of its
  * beginning; without slopes.
  */
@@ -232,14 +229,25 @@ YB_MUST_CHECK bool mesh_insert(yb_load_t *load, half_t place, const yb_vertex_t 
 /* Makes the edges round the new vertex p Delaunay. */
 void mesh_legalise(yb_load_t *load, int p);
 
+/* Can ab become an edge? Not if a marked edge or a vertex is in its way. To `force` it, it is made
+ * one and marked, as far as that goes.
+ */
+bool mesh_reach(yb_load_t *load, int a, int b, bool force);
+
 /* Makes ab a marked edge; false if another or a vertex is in its way. */
-bool mesh_force_edge(yb_load_t *load, int a, int b);
+static inline bool mesh_force_edge(yb_load_t *load, int a, int b)
+{
+    return mesh_reach(load, a, b, true);
+}
 
 /* Flips what is not marked until it is Delaunay. */
 void mesh_make_delaunay(yb_load_t *load);
 
-/* Can ab become an edge? Not if a marked edge or a vertex is in its way. */
-bool mesh_sees(yb_load_t *load, int a, int b);
+/* Can ab become an edge? */
+static inline bool mesh_sees(yb_load_t *load, int a, int b)
+{
+    return mesh_reach(load, a, b, false);
+}
 
 /* Makes it one if it can. */
 bool mesh_link(yb_load_t *load, int a, int b);

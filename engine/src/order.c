@@ -96,8 +96,8 @@ APART unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *co
 /* Each triangle after all that may hide it. False: there is a circle; its triangles come last. */
 static bool sort(yb_frame_t *frame, int which)
 {
-    const yb_across_t *const across = yb_map_across(frame->map);
-    const yb_index_t *corner = yb_map_triangle(frame->map, 0);
+    const yb_across_t *const across = relief_across(frame->map);
+    const yb_index_t *corner = relief_triangle(frame->map, 0);
     const yb_triangle_t count = frame->map->triangle_count;
     yb_triangle_t *const order = frame->order;
     uint8_t *const known = frame->bins; /* not in use yet */

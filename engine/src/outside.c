@@ -392,7 +392,7 @@ SELDOM bool root_misses(const yb_frame_t *frame, const refine_view_t *whole,
 
 void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t triangle)
 {
-    const yb_index_t *corner = yb_map_triangle(frame->map, triangle);
+    const yb_index_t *corner = relief_triangle(frame->map, triangle);
     const bool walls = walls_are_below(frame, triangle);
     const yb_vertex_t *v[3];
     for (int i = 0; i < 3; i++)

@@ -192,11 +192,6 @@ static yb_status_t take_field(yb_load_t *load, uint32_t field)
     }
 }
 
-void paper_begin(yb_load_t *load)
-{
-    load->section = SECTION_LAST; /* none follow */
-}
-
 yb_status_t paper_take(yb_load_t *load, uint8_t byte)
 {
     static const uint8_t width[] YB_ROM = {

@@ -30,9 +30,21 @@ int relief_class(int32_t dx, int32_t dy)
     return relief_square_class(relief_half_square(dx, dy));
 }
 
+#if !COPIES
+const yb_across_t *relief_across(const yb_map_t *map)
+{
+    return yb_map_across(map);
+}
+
+const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle)
+{
+    return yb_map_triangle(map, triangle);
+}
+#endif
+
 void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3])
 {
-    const yb_index_t *at = yb_map_triangle(map, triangle);
+    const yb_index_t *at = relief_triangle(map, triangle);
     for (int i = 0; i < 3; i++)
         corner[i] = &map->vertex[at[i]];
 }
@@ -48,6 +60,13 @@ APART edge_t edge_of(const yb_vertex_t *a, const yb_vertex_t *b)
     int32_t dy = fix_minus(b->y_q8, a->y_q8);
     return (edge_t){dx, dy, relief_bulge(a->gx_q11 - b->gx_q11, a->gy_q11 - b->gy_q11, dx, dy)};
 }
+
+#if !COPIES
+int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_t rise)
+{
+    return relief_limit_here(noise, dx, dy, rise);
+}
+#endif
 
 void relief_middle(const yb_map_t *map, const yb_vertex_t *a, const yb_vertex_t *b,
                    yb_vertex_t *middle)

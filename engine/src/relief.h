@@ -112,11 +112,19 @@ static inline int32_t relief_half_bulge(int32_t bend_x, int32_t bend_y, int32_t 
 /* Gravity (paper, 3.3): no half edge may become steeper than 2 by its noise; a chord that already
  * is gets none. Half edges are L/2 long and rise by half the chord's rise, plus or minus the noise.
  */
-static inline int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_t rise)
+static inline int32_t relief_limit_here(int32_t noise, int32_t dx, int32_t dy, int32_t rise)
 {
     int32_t limit = fix_max(fix_length(dx, dy) - (fix_abs(rise) >> 1), 0);
     return fix_clamp(noise, -limit, limit);
 }
+
+/* The same; a call where size counts more than speed, for noise is within its limit nearly always.
+ */
+#if COPIES
+#define relief_limit relief_limit_here
+#else
+int32_t relief_limit(int32_t noise, int32_t dx, int32_t dy, int32_t rise);
+#endif
 
 /* The noise at a midpoint of an edge of a class: scale < 2^16, noise within 2^9, so the product is
  * within 2^25.
@@ -143,6 +151,24 @@ static inline bool relief_keeps_all(int32_t scale, int class, int32_t rise)
 {
     return (scale + (int32_t)(fix_size(rise) >> 1)) << 4 <= ((int32_t)31 << (class >> 2)) - 32;
 }
+
+/* yb_map_across and yb_map_triangle, which are long: in line only where speed counts more than
+ * size.
+ */
+#if COPIES
+static inline const yb_across_t *relief_across(const yb_map_t *map)
+{
+    return yb_map_across(map);
+}
+
+static inline const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle)
+{
+    return yb_map_triangle(map, triangle);
+}
+#else
+const yb_across_t *relief_across(const yb_map_t *map);
+const yb_index_t *relief_triangle(const yb_map_t *map, yb_triangle_t triangle);
+#endif
 
 /* The corners of a triangle. */
 void relief_corners(const yb_map_t *map, yb_triangle_t triangle, const yb_vertex_t *corner[3]);
@@ -175,6 +201,8 @@ static inline int32_t relief_reach(const yb_map_t *map, const relief_bound_t *bo
     int32_t reach = map->reach_q8[bound->longest];
     if (reach == UINT16_MAX)
         return bound->bulge_q8 + RELIEF_MOST_REACH_Q8;
+    if (shortest <= 0) /* all count */
+        return bound->bulge_q8 + reach;
     /* Classes of the halved edges go down by four; those below the shortest do not count. */
     int uncounted = bound->longest - ((bound->longest - shortest) / 4 + 1) * 4;
     if (uncounted >= 0)

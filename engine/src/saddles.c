@@ -49,8 +49,8 @@ static int32_t crossing(const yb_load_t *load, int a, int b, int p, int q)
 {
     int32_t from = orientation(load, p, q, a);
     int32_t to = orientation(load, p, q, b);
-    if ((from > 0) == (to > 0) ||
-        (orientation(load, a, b, p) > 0) == (orientation(load, a, b, q) > 0))
+    if (!fix_parted(from, to) ||
+        !fix_parted(orientation(load, a, b, p), orientation(load, a, b, q)))
         return -1;
     return fix_scale(from, 65536, from - to);
 }
@@ -176,7 +176,7 @@ static yb_status_t join(yb_load_t *load, const pair_t *pair)
     for (int k = 0; k < 2; k++) {
         int spot = k == 0 ? (int)(pair->spots >> 16) : (int)(pair->spots & 0xffff);
         gap.peak[k] = load->contour[spot].first;
-        gap.line[k] = &load->contour[load->scratch->wish[spot]];
+        gap.line[k] = line_before(load, &load->contour[spot]);
     }
     if (!find_gap(load, &gap))
         return YB_MORE;
@@ -225,9 +225,9 @@ static bool next_pair(const yb_load_t *load, pair_t *pair)
 {
     pair_t next = {.apart = INT32_MAX};
     for (int a = 0; a < load->all_contours; a++) {
-        for (int b = a + 1; b < load->all_contours && load->scratch->group[a] != NOWHERE; b++) {
-            if (load->scratch->group[b] == NOWHERE ||
-                load->scratch->group[a] == load->scratch->group[b])
+        for (int b = a + 1; b < load->all_contours && load->scratch->partner[a] != NOWHERE; b++) {
+            if (load->scratch->partner[b] == NOWHERE ||
+                load->scratch->partner[a] == load->scratch->partner[b])
                 continue;
             int32_t apart = edge_length(load, load->contour[a].first, load->contour[b].first);
             uint32_t spots = (uint32_t)a << 16 | (uint32_t)b;
@@ -243,22 +243,21 @@ static bool next_pair(const yb_load_t *load, pair_t *pair)
 static void join_groups(yb_load_t *load, yb_index_t from, yb_index_t to)
 {
     for (int s = 0; s < load->all_contours; s++) {
-        if (load->scratch->group[s] == from)
-            load->scratch->group[s] = to;
+        if (load->scratch->partner[s] == from)
+            load->scratch->partner[s] = to;
     }
 }
 
 /* Nearest pairs first, until all are joined or too many could not be (7). What is left, the
- * skeleton joins. wish[s] is the line that spot height s stands behind, group[s] one of those that
- * are joined to it.
+ * skeleton joins. partner[s] is the line that spot height s stands behind, or one that is joined to
+ * it.
  */
 static bool join_level(yb_load_t *load)
 {
     pair_t pair = {.apart = -1};
     int refusals = 0;
     for (int s = 0; s < load->all_contours; s++)
-        load->scratch->wish[s] = load->scratch->group[s] =
-            (yb_index_t)peak_behind(load, &load->contour[s]);
+        load->scratch->partner[s] = (yb_index_t)peak_behind(load, &load->contour[s]);
     while (refusals < MOST_REFUSALS && next_pair(load, &pair)) {
         yb_status_t status = join(load, &pair);
         if (status < 0)
@@ -266,8 +265,8 @@ static bool join_level(yb_load_t *load)
         if (status == YB_MORE)
             refusals++;
         else
-            join_groups(load, load->scratch->group[pair.spots >> 16],
-                        load->scratch->group[pair.spots & 0xffff]);
+            join_groups(load, load->scratch->partner[pair.spots >> 16],
+                        load->scratch->partner[pair.spots & 0xffff]);
     }
     return true;
 }

@@ -9,18 +9,22 @@
 
 #include "mesh.h"
 
+enum {
+    ALL_FLAT = (yb_index_t)-1
+};
+
 /* Notes which regions lie beyond a region's lines; is one of them not flat? */
 static bool look_beside(yb_load_t *load, int region)
 {
-    bool sloping = false;
+    yb_index_t flat = ALL_FLAT;
     for (int side = 0; side < 2 * load->contour_count; side++) {
         if (region_beside(load, side) != region)
             continue;
         int other = region_beside(load, side ^ 1); /* that itself, of a spot height in it */
-        sloping = sloping || !load->scratch->flat[other];
+        flat &= load->scratch->flat[other];
         load->scratch->beside[other] = (yb_index_t)region;
     }
-    return sloping;
+    return flat != ALL_FLAT;
 }
 
 /* The smallest difference of height h from the ground in the regions beside, of two alike the one
@@ -34,10 +38,11 @@ static int32_t rise_farther_out(const yb_load_t *load, int region, int32_t h)
     for (half_t e = 0; e != NO_HALF; e = half_after(load, e)) {
         if (load->scratch->beside[region_of(load, e)] != region)
             continue;
-        int32_t up = h - height_at(load, origin_of(load, e));
-        uint32_t size = 2 * (uint32_t)fix_abs(up) - (up > 0 ? 2 : 1); /* of none: the largest */
+        int32_t down = height_at(load, origin_of(load, e)) - h;
+        /* 0 for -1, then 1, -2, 2 …; of none the largest. */
+        uint32_t size = ((uint32_t)down << 1 ^ (uint32_t)(down >> 31)) - 1;
         if (size < least) {
-            rise = up;
+            rise = -down;
             least = size;
         }
     }
@@ -66,12 +71,10 @@ typedef struct {
 #define FREE ((int32_t)1 << 20)
 
 /* Takes in what lies beyond a segment of a line round a flat region of height h. */
-static void look_out(const yb_load_t *load, half_t e, int32_t h, flat_t *flat)
+static void look_out(const yb_load_t *load, half_t twin, int32_t length, int32_t h, flat_t *flat)
 {
     angle_t beyond;
-    half_t twin = twin_of(load, e);
     int32_t up = h - height_at(load, apex_of(load, twin));
-    int32_t length = half_length(load, e);
     flat->length += length;
     if (up == 0)
         return;
@@ -91,7 +94,8 @@ static void survey(const yb_load_t *load, int region, int32_t h, flat_t *flat)
         angle_t angle;
         int entry = entry_of(load, e);
         uint32_t key = edge_key(load, e);
-        int32_t width = half_length(load, e) + (entry < NO_TRIANGLE ? FREE : 0);
+        int32_t length = half_length(load, e);
+        int32_t width = length + (entry < NO_TRIANGLE ? FREE : 0);
         if (width > flat->width || (width == flat->width && key < flat->key)) {
             flat->widest = e;
             flat->width = width;
@@ -101,7 +105,7 @@ static void survey(const yb_load_t *load, int region, int32_t h, flat_t *flat)
         if ((e & 3) == 0)
             flat->area += angle.area;
         if (entry > NO_TRIANGLE)
-            look_out(load, e, h, flat);
+            look_out(load, twin_of(load, e), length, h, flat);
     }
 }
 
@@ -132,13 +136,6 @@ static int32_t rise_inside(const yb_load_t *load, int region, int32_t h, const f
 
 /* --- Where ----------------------------------------------------------------------------------- */
 
-static bool is_acute(const yb_load_t *load, half_t e)
-{
-    angle_t angle;
-    find_angle(load, e, &angle);
-    return angle.dot > 0;
-}
-
 /* Adds a vertex at the widest place of a region: the middle of the longest edge that no line runs
  * along, for that is the chord of an empty circle. If just one of the two triangles at it is acute,
  * the circle's centre lies in that one, and so does the place: half way on to the third corner. A
@@ -150,15 +147,18 @@ static bool add_summit(yb_load_t *load, int region, const flat_t *flat, int32_t 
     int p = load->vertex_count;
     bool inside = true;
     yb_vertex_t summit;
-    if (flat->width >= FREE) {
-        half_t twin = twin_of(load, e);
-        bool there = is_acute(load, twin);
-        inside = is_acute(load, e) != there;
-        if (inside && there)
-            e = twin;
-    }
     find_middle(load, e, &summit);
     summit.z_q8 = z;
+    if (flat->width >= FREE) {
+        angle_t here;
+        angle_t there;
+        half_t twin = twin_of(load, e);
+        find_angle(load, e, &here);
+        find_angle(load, twin, &there);
+        inside = fix_parted(here.dot, there.dot);
+        if (inside && there.dot > 0)
+            e = twin;
+    }
     if (inside) { /* half and quarter weights keep to the quarter-step lattice */
         find_middle_of(&summit, vertex_of(load, apex_of(load, e)), &summit);
         e = place_inside(e);

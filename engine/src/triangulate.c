@@ -3,7 +3,7 @@
  * Three steps, all by flips: every vertex is inserted into the Delaunay triangulation of those
  * before it; every contour edge is forced in; what is not fixed is made Delaunay again. Nothing
  * needs a stack or a list: legalising walks round the new vertex, and forcing an edge in removes
- * the vertices of its channel one by one (see reach).
+ * the vertices of its channel one by one (see mesh_reach).
  *
  * The result does not depend on the order of work: where four points lie on a circle, the diagonal
  * goes through the one with the smallest index. That is the triangulation of points lifted to the
@@ -102,8 +102,8 @@ void mesh_legalise(yb_load_t *load, int p)
     half_t e = first_spoke(load, p);
     int first_end = end_of(load, e);
     do {
-        while (illegal(load, next_of(e))) {
-            flip(load, next_of(e)); /* its triangle is now (a d p): the first of the two new ones */
+        for (half_t far = next_of(e); illegal(load, far); far = e - 2) {
+            flip(load, far); /* its triangle is now (a d p): the first of the two new ones */
             e = place_inside(e) - 1;
         }
         e = spoke_left(load, e);
@@ -146,11 +146,9 @@ static void split(yb_load_t *load, half_t place, int p)
     int part[3] = {NO_TRIANGLE, t, (int)map->triangle_count++};
     if (!on_side)
         part[0] = (int)map->triangle_count++;
-    int before = 2;
-    for (int k = 0; k < 3; k++) {
-        int after = next3(k);
+    for (int k = 0, before = 2; k < 3; before = k++) {
+        int after = 3 - before - k;
         facet_t facet = {{f.v[k], f.v[after], p}, {f.across[k], part[after], part[before]}};
-        before = k;
         if (part[k] == NO_TRIANGLE)
             continue;
         load->region[part[k]] = load->region[t];
@@ -231,17 +229,6 @@ static void mark(yb_load_t *load, half_t e)
     put_facet(load, t, &facet);
 }
 
-/* The half of the triangle on the left of spoke e that leads from the spoke's beginning to b, or
- * back; NO_HALF: none.
- */
-static half_t edge_to(const yb_load_t *load, half_t e, int b)
-{
-    if (end_of(load, e) == b)
-        return e;
-    e = last_of(e);
-    return origin_of(load, e) == b ? e : NO_HALF;
-}
-
 /* Walks along the channel of ab, which is entered from a across e. To `narrow` it takes one vertex
  * off it: the first at which a side of the channel bulges away from ab. There is one: that farthest
  * from ab. False: a vertex or a marked edge is in the way.
@@ -280,18 +267,19 @@ static bool walk_channel(yb_load_t *load, half_t e, int a, int b, bool narrow)
     return false; /* two contours cross */
 }
 
-/* Can ab be an edge? To `force` it, it is made one and marked: the triangles it crosses form a
+/* To `force` ab, it is made an edge and marked: the triangles it crosses form a
  * channel; each round takes one vertex off the channel's sides (those edges that it had across the
  * channel are flipped to its neighbours), until none is left between a and b. Each vertex leaves
  * once: it always ends. What can be an edge can be forced.
  */
-static bool reach(yb_load_t *load, int a, int b, bool force)
+bool mesh_reach(yb_load_t *load, int a, int b, bool force)
 {
     for (;;) {
         half_t e = first_spoke(load, a);
         for (; e != NO_HALF; e = spoke_after(load, e)) {
-            half_t edge = edge_to(load, e, b);
-            if (edge != NO_HALF) {
+            /* Does a side of the triangle on the spoke's left lead to b, or back? */
+            half_t edge = end_of(load, e) == b ? e : last_of(e);
+            if (edge == e || origin_of(load, edge) == b) {
                 if (force)
                     mark(load, edge);
                 return true;
@@ -306,16 +294,6 @@ static bool reach(yb_load_t *load, int a, int b, bool force)
         if (!force)
             return true;
     }
-}
-
-bool mesh_force_edge(yb_load_t *load, int a, int b)
-{
-    return reach(load, a, b, true);
-}
-
-bool mesh_sees(yb_load_t *load, int a, int b)
-{
-    return reach(load, a, b, false);
 }
 
 bool mesh_link(yb_load_t *load, int a, int b)

@@ -10,6 +10,7 @@
 #include "fix.h"
 #include "mesh.h"
 #include "refine.h"
+#include "relief.h"
 #include "shade.h"
 
 /* The sides of the frame that the eye is beyond: the x that places on one have, and the y on the
@@ -49,12 +50,13 @@ void walls_begin(yb_frame_t *frame)
     int32_t side[2];
     if (!frame->view.walls || !find_sides(frame, side))
         return;
-    const yb_across_t *const across = yb_map_across(map);
+    const yb_across_t *const across = relief_across(map);
     for (yb_triangle_t t = 0; t < map->triangle_count; t++) {
         if (!is_on_frame(across[t]))
             continue;
+        const yb_index_t *corner = relief_triangle(map, t);
         for (int i = 0; i < 3; i++) {
-            if (faces(map, yb_map_triangle(map, t), i, side))
+            if (faces(map, corner, i, side))
                 frame->rim[t >> 3] = (uint8_t)(frame->rim[t >> 3] | 1 << (t & 7));
         }
     }
@@ -136,7 +138,7 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
         if (!walls_are_below(frame, t) ||
             (frame->binned && !refine_touches(frame, t, first_bin, last_bin)))
             continue;
-        const yb_index_t *corner = yb_map_triangle(frame->map, t);
+        const yb_index_t *corner = relief_triangle(frame->map, t);
         for (int i = 0; i < 3; i++) {
             if (!faces(frame->map, corner, i, side))
                 continue;

@@ -238,10 +238,11 @@ typedef union {
         yb_index_t flat[YB_MAX_REGIONS];   /* is a region of one height? */
         yb_index_t beside[YB_MAX_REGIONS]; /* a region that it shares a line with */
     };
-    struct {                               /* links.c, saddles.c */
+    struct { /* links.c, saddles.c */
+        /* of a point, the peak that it is to be linked with; of a peak, its line or one joined to
+         * that */
+        yb_index_t partner[YB_MAX_VERTICES];
         yb_index_t way_to[YB_MAX_REGIONS]; /* the line that leads to a region */
-        yb_index_t wish[YB_MAX_VERTICES];  /* of a point, the peak; of a peak, its line */
-        yb_index_t group[YB_MAX_CONTOURS]; /* of a peak, its line or one joined to that */
     };
     /* skeleton.c: from a branch's beginning to a point; later, to its farthest end */
     uint32_t way[YB_MAX_VERTICES];
@@ -281,10 +282,16 @@ typedef struct {
     union {
         struct { /* compact.c */
             uint32_t range, code;
-            int x, y, start_x, start_y, length, height;
-            yb_ring_t last; /* step */
-            int32_t places_left, base;
-            int start_way;
+            int x, y;
+            int number; /* the length of a step, or a height before its sign */
+            int32_t base;
+            union {
+                struct { /* while lines come */
+                    int start_x, start_y, start_way;
+                    yb_ring_t last; /* step */
+                };
+                int32_t places_left; /* while spot heights do */
+            };
         };
         struct { /* paper.c */
             uint32_t bits, flags;
