@@ -149,9 +149,9 @@ static inline int32_t bend_of(const yb_vertex_t *a, const yb_vertex_t *b)
                                 fix_minus(a->x_q8, b->x_q8), fix_minus(a->y_q8, b->y_q8)));
 }
 
-/* A surface of the second degree bulges from its plane at most 4/3 of what it does on an edge; a
- * line from a corner to a midpoint at most 5/4 of its triangle's edges, and of two such lines at
- * most one is split on.
+/* Slopes are linear on a base triangle, so that its smooth surface is of the second degree. Such a
+ * surface bulges from the plane of a triangle at most 4/3 of what it does on that one's edges, and
+ * on any line within another triangle at most 5/4 of what it does on the edges of that: 5/3 in all.
  */
 int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
 {
@@ -160,13 +160,16 @@ int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3])
     const int32_t bulge =
         fix_max(bend_of(corner[0], corner[1]),
                 fix_max(bend_of(corner[1], corner[2]), bend_of(corner[2], corner[0])));
-    return 2 * bulge + (bulge >> 1);
+    return 7 * bulge >> 2;
 }
 
 /* How far refinement can move a point of a triangle whose longest edge is of a class and halved so
  * often. Each part of an edge is of a class four lower and halved once less, and so is what is
  * split inside the triangle: a point moves by the noise of each class once. (relief_reach counts it
- * twice.) Rounding moves it by one unit of height more at each level, and one in all.
+ * twice.) Rounding moves it by one unit of height more at each level, and one in all; slopes are
+ * rounded by half a unit at each level, so that those of an edge of level n differ by n - 1 more or
+ * less than they should: on both axes 2 * 2^16 / 2^14 * (0/1 + 1/2 + 2/4 + 3/8 …), which is at most
+ * 4 a level after the first, and 16.
  */
 COPIED int32_t stray_of(const yb_map_t *map, int32_t bulge, int class, int often)
 {
@@ -176,7 +179,7 @@ COPIED int32_t stray_of(const yb_map_t *map, int32_t bulge, int class, int often
         reach = RELIEF_MOST_REACH_Q8;
     else if (rest >= 0)
         reach -= map->reach_q8[rest];
-    return bulge + fix_min(often, REFINE_LEVELS) + 1 + (reach >> 1);
+    return bulge + fix_min(5 * often, REFINE_LEVELS + 20) - 3 + (reach >> 1);
 }
 
 /* Of a triangle of which some edges are split. */
@@ -211,8 +214,8 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
     return stray_in_water(frame, part->point, stray);
 }
 
-/* The map's bound is by other midpoints. Twice that is as much as limited_stray: three times the
- * bulge of an edge to two and a half, four times what noise does to once; and that is below 2^19.
+/* The map's bound is by other midpoints. Twice that is more than any point moves: three times the
+ * bulge of an edge, four times what noise does; and that is below 2^19.
  */
 bool refine_root_misses(const yb_frame_t *frame, const refine_view_t *view,
                         const yb_point_t *const p[3])
@@ -403,9 +406,9 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
                             : root_misses(frame, whole, corner, v, walls, &box);
     const int32_t last = frame->screen.height - 1;
     int bins = (int)(last >> frame->row_shift) << 4;
-    if (!missed) {
-        bins = (int)(fix_clamp(box.top >> 4, 0, last) >> frame->row_shift << 4 |
-                     fix_clamp(box.bottom >> 4, 0, last) >> frame->row_shift);
+    if (!missed) { /* from the first row whose pixels' centres it may cover to the last */
+        bins = (int)(fix_clamp(raster_pixel(box.top), 0, last) >> frame->row_shift << 4 |
+                     fix_clamp(raster_pixel(box.bottom - 16), 0, last) >> frame->row_shift);
     }
     frame->bins[triangle] = (uint8_t)bins;
 }

@@ -147,7 +147,8 @@ static inline bool refine_part_misses(const yb_frame_t *frame, const refine_view
     return beyond != 0 && refine_far_off(frame, view, part, beyond);
 }
 
-/* How far the smooth surface may be from the plane of a base triangle. */
+/* How far the smooth surface of a base triangle may be from its plane, and of parts, from theirs.
+ */
 int32_t refine_bulge(const yb_map_t *map, const yb_vertex_t *const corner[3]);
 
 /* The bins of rows that a base triangle, and the walls below it, may touch: frame->bins. `whole` is
