@@ -449,7 +449,8 @@ typedef struct {
     uint16_t zoom_q12;      /* focal length in frame widths: 4392 is 50 degrees across */
     uint16_t exaggerate_q8; /* vertical scale: 256 is true */
     uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than
-                             * about a sixteenth of the screen's width */
+                             * about a sixteenth of the screen's width, and where the map is near
+                             * up to four pixels more. What is turned away is split less. */
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool lamp; /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
     int32_t lamp_q8[3];
