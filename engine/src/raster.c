@@ -62,8 +62,8 @@ static inline int32_t crossing_of(const side_t *side)
 }
 
 /* Draws a small triangle: in one pixel value, or with lines. */
-COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
-                       uint16_t pixel, const raster_cut_t *cut)
+TINY void draw_level(bool colours, const raster_t *raster, bool lines, const raster_shape_t *shape,
+                     uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];
@@ -73,7 +73,7 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     uint8_t *row = pixels_row(raster, y) + (colours ? 4 * pair : pair);
     const size_t pitch = raster->pitch;
     uint32_t value = 0;
-    if (cut != NULL)
+    if (lines)
         value = rows_value(cut, y) + (uint32_t)cut->along_x * 2 * (uint32_t)pair;
     /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
     const bool turns_left = b->y_q4 < c->y_q4;
@@ -98,7 +98,7 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
     }
     for (;;) {
         do {
-            if (cut != NULL) {
+            if (lines) {
                 rows_cut(colours, row, crossing_of(&left), crossing_of(&right), value, cut);
                 value += (uint32_t)cut->along_y;
             } else {
@@ -120,19 +120,19 @@ COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_
 }
 
 #if COPIES
-APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
-{
-    ROWS_DRAW(draw_level, raster, shape, 0, cut);
-}
-
 void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    draw_level(false, raster, shape, pixel, NULL);
+    draw_level(false, raster, false, shape, pixel, NULL);
+}
+
+APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
+{
+    ROWS_DRAW(draw_level, raster, true, shape, 0, cut);
 }
 
 void raster_colours(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    draw_level(true, raster, shape, pixel, NULL);
+    draw_level(true, raster, false, shape, pixel, NULL);
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
@@ -141,17 +141,35 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
     if (cut != NULL)
         draw_lines(raster, shape, cut);
     else
-        ROWS_DRAW(draw_level, raster, shape, pixel, NULL);
+        raster_plain(raster, shape, pixel);
 }
 #else
+/* Greys have a copy even here: what they need nearly fits the registers. */
+APART void draw_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    draw_level(false, raster, false, shape, pixel, NULL);
+}
+
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
-    draw_level(raster->colours, raster, shape, pixel, cut);
+    const bool lines = cut != NULL;
+    if (!lines && !raster->colours)
+        draw_greys(raster, shape, pixel);
+    else
+        draw_level(!lines || raster->colours, raster, lines, shape, pixel, cut);
 }
 #endif
 
 /* --- Triangles -------------------------------------------------------------------------------- */
+
+#if !COPIES
+raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                           raster_shape_t *shape)
+{
+    return raster_front_here(a, b, c, shape);
+}
+#endif
 
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)
