@@ -28,9 +28,10 @@
  */
 #define COSINE_STEP(shade) (uint16_t)(((uint32_t)(shade) << 12) - COSINE_LEAST(shade))
 
+#define COSINE_BRIGHTEST (uint16_t)((uint32_t)(SHADES - 1) << 12)
+
 enum {
-    COSINE_CELL = 6, /* bits: no two shades begin in so wide a cell */
-    COSINE_BRIGHTEST = (SHADES - 1) * (1 << 12)
+    COSINE_CELL = 6 /* bits: no two shades begin in so wide a cell */
 };
 
 /* Of each cell, for the shade that begins in it or, if none does, beyond it. */

@@ -185,7 +185,7 @@ APART shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3
     const int32_t middle =
         ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
     const int32_t near = (frame->looks & LOOK_HAZE) == 0 ? 0 : nearest_of(corner);
-    return (shade_t){colour_pixel(frame, hue_of(frame, middle), shade, near), (uint16_t)light};
+    return shade_of(colour_pixel(frame, hue_of(frame, middle), shade, near), light);
 }
 
 /* How many corners of a triangle lie in the water. */
@@ -219,13 +219,13 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     uint16_t pixel = (uint16_t)shade;
     if (!USUAL((looks & (LOOK_ODD | LOOK_COLOURS)) == 0)) {
         if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
-            return (shade_t){water_pixel(frame, shade, nearest_of(corner)), (uint16_t)light};
+            return shade_of(water_pixel(frame, shade, nearest_of(corner)), light);
         if ((looks & LOOK_COLOURS) != 0)
             return coloured(frame, corner, shade, light);
     }
     if ((looks & LOOK_HAZE) != 0)
         pixel = colour_grey(frame, shade, nearest_of(corner));
-    return (shade_t){pixel, (uint16_t)light};
+    return shade_of(pixel, light);
 }
 
 shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
@@ -235,15 +235,14 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
     const uint32_t looks = frame->looks;
     int32_t light;
     if (USUAL((looks & LOOK_ODD) == 0)) {
-        if (USUAL(frame->smooth))
-            smooth_normal(slopes, &normal);
+        smooth_normal(slopes, &normal);
         light = sun_light(frame, normal);
     } else {
         light = odd_light(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
                           normal.z);
     }
     if (USUAL(looks == 0))
-        return (shade_t){(uint16_t)light, (uint16_t)light};
+        return shade_of((uint16_t)light, light);
     if (looks == LOOK_COLOURS)
         return coloured(frame, corner, light, light);
     return look_of(frame, corner, light);
@@ -276,8 +275,8 @@ COPIED bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_
         return false;
     const int32_t near = nearest_of(p);
     int hue = HUE_LINE;
-    int32_t light = shade.light;
-    cut->below = cut->above = shade.pixel;
+    int32_t light = (int32_t)(shade >> 16);
+    cut->below = cut->above = shade_pixel(shade);
     if (shore) {
         hue = HUE_SHORE;
         light = SHADES - 1;

@@ -112,9 +112,9 @@ static void light_is_lamberts(void **state)
                     (uint16_t)rng_range(&rng, 500, 16384));
         begin(YB_GREY4);
         random_triangle(&rng, p, 4, 15);
-        const double shade = shade_ground(&frame, corner).pixel;
+        const double shade = shade_pixel(shade_ground(&frame, corner));
         frame.looks |= LOOK_ODD; /* there might be a lamp, or water */
-        assert_int_equal(shade_ground(&frame, corner).pixel, (int)shade);
+        assert_int_equal(shade_pixel(shade_ground(&frame, corner)), (int)shade);
         /* Rounded down, so between the truth and one below it. */
         const double off = fabs(shade + 0.5 - true_shade(p));
         worst = off > worst ? off : worst;
@@ -186,9 +186,9 @@ static void a_lamp_shines_from_its_place(void **state)
             frame.view.sun_q14[i] = (int16_t)lround(way[i] / length * 16384);
         }
         frame.view.lamp = true;
-        const int by_lamp = shade_ground(&frame, corner).pixel;
+        const int by_lamp = shade_pixel(shade_ground(&frame, corner));
         frame.view.lamp = false;
-        const int by_sun = shade_ground(&frame, corner).pixel;
+        const int by_sun = shade_pixel(shade_ground(&frame, corner));
         assert_true(abs(by_lamp - by_sun) <= 1);
         beside += by_lamp != by_sun;
     }
@@ -209,12 +209,12 @@ static void shadows_dim_and_never_hide(void **state)
         const yb_point_t *const corner[3] = {&p[0], &p[1], &p[2]};
         random_triangle(&rng, p, 7, 13);
         frame.view.shadow = NULL;
-        const int plain = shade_ground(&frame, corner).pixel;
+        const int plain = shade_pixel(shade_ground(&frame, corner));
         frame.view.shadow = &shadow;
         memset(lit, 0xff, sizeof lit);
-        assert_int_equal(shade_ground(&frame, corner).pixel, plain);
+        assert_int_equal(shade_pixel(shade_ground(&frame, corner)), plain);
         memset(lit, 0, sizeof lit);
-        const int dark = shade_ground(&frame, corner).pixel;
+        const int dark = shade_pixel(shade_ground(&frame, corner));
         assert_in_range(dark, DARKEST, plain);
         assert_true(plain < DARKEST + 2 || dark < plain);
         darker += dark < plain;
@@ -336,7 +336,7 @@ static void lines_stand_out(void **state)
             random_triangle(&rng, p, 7, 13);
             const double steepest = see_from_above(p);
             const shade_t shade = shade_ground(&frame, corner);
-            const uint16_t pixel = shade.pixel;
+            const uint16_t pixel = shade_pixel(shade);
             bool crossed = false;
             for (int i = 0; i < 3; i++)
                 crossed = crossed || p[i].z_q8 / 300 != p[0].z_q8 / 300;
