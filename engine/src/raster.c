@@ -62,7 +62,7 @@ static inline int32_t crossing_of(const side_t *side)
 }
 
 /* Draws a small triangle: in one pixel value, or with lines. */
-TINY void draw_level(bool colours, const raster_t *raster, bool lines, const raster_shape_t *shape,
+TINY void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
                      uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *a = shape->p[0];
@@ -73,7 +73,7 @@ TINY void draw_level(bool colours, const raster_t *raster, bool lines, const ras
     uint8_t *row = pixels_row(raster, y) + (colours ? 4 * pair : pair);
     const size_t pitch = raster->pitch;
     uint32_t value = 0;
-    if (lines)
+    if (cut != NULL)
         value = rows_value(cut, y) + (uint32_t)cut->along_x * 2 * (uint32_t)pair;
     /* Down the left side to b and on to c, down the right one to c and on to b: to the lower. */
     const bool turns_left = b->y_q4 < c->y_q4;
@@ -98,7 +98,7 @@ TINY void draw_level(bool colours, const raster_t *raster, bool lines, const ras
     }
     for (;;) {
         do {
-            if (lines) {
+            if (cut != NULL) {
                 rows_cut(colours, row, crossing_of(&left), crossing_of(&right), value, cut);
                 value += (uint32_t)cut->along_y;
             } else {
@@ -120,19 +120,19 @@ TINY void draw_level(bool colours, const raster_t *raster, bool lines, const ras
 }
 
 #if COPIES
-void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
-{
-    draw_level(false, raster, false, shape, pixel, NULL);
-}
-
 APART void draw_lines(const raster_t *raster, const raster_shape_t *shape, const raster_cut_t *cut)
 {
-    ROWS_DRAW(draw_level, raster, true, shape, 0, cut);
+    ROWS_DRAW(draw_level, raster, shape, 0, cut);
+}
+
+void raster_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    draw_level(false, raster, shape, pixel, NULL);
 }
 
 void raster_colours(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    draw_level(true, raster, false, shape, pixel, NULL);
+    draw_level(true, raster, shape, pixel, NULL);
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
@@ -147,17 +147,16 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
 /* Greys have a copy even here: what they need nearly fits the registers. */
 APART void draw_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
 {
-    draw_level(false, raster, false, shape, pixel, NULL);
+    draw_level(false, raster, shape, pixel, NULL);
 }
 
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
-    const bool lines = cut != NULL;
-    if (!lines && !raster->colours)
+    if (cut == NULL && !raster->colours)
         draw_greys(raster, shape, pixel);
     else
-        draw_level(!lines || raster->colours, raster, lines, shape, pixel, cut);
+        draw_level(cut == NULL || raster->colours, raster, shape, pixel, cut);
 }
 #endif
 
