@@ -54,7 +54,8 @@ void colour_begin(yb_frame_t *frame)
     }
     frame->haze_q16 = frame->haze_near > 0 ? ((int32_t)256 << 16) / frame->haze_near : 0;
     const yb_view_t *view = &frame->view;
-    const bool odd = view->lamp || view->water_q8 != YB_NO_WATER || view->exaggerate_q8 != 256;
+    const bool odd = view->lamp || view->water_q8 != YB_NO_WATER || view->exaggerate_q8 != 256 ||
+                     !frame->map->smooth;
     frame->looks = (uint8_t)((frame->screen.format == YB_RGB565 ? LOOK_COLOURS : 0) |
                              (frame->haze_near > 0 ? LOOK_HAZE : 0) |
                              (view->shadow != NULL ? LOOK_SHADOWS : 0) | (odd ? LOOK_ODD : 0));

@@ -27,7 +27,7 @@ enum {
     LOOK_COLOURS = 1,
     LOOK_HAZE = 2,
     LOOK_SHADOWS = 4,
-    LOOK_ODD = 8 /* a lamp, water, or another vertical scale */
+    LOOK_ODD = 8 /* a lamp, water, another vertical scale, or a map that is not smooth */
 };
 
 /* Fills in frame's looks, and its constants of hues, sky and haze. */

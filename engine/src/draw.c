@@ -33,7 +33,7 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
     if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
         refine_misses(frame, view, p, 3, 0))
         return;
-    if (!clip_draw(frame, raster, p, shade_ground(frame, p).pixel))
+    if (!clip_draw(frame, raster, p, shade_pixel(shade_ground(frame, p))))
         return;
     frame->stats.drawn++;
     if (raster->band == NULL)
@@ -48,11 +48,11 @@ SELDOM void draw_odd(const yb_frame_t *frame, const raster_t *raster, const yb_p
     raster_cut_t cut;
     const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
     if (COPIES && small && !cuts)
-        raster_plain(raster, shape, shade.pixel);
+        raster_plain(raster, shape, shade_pixel(shade));
     else if (small)
-        raster_level(raster, shape, shade.pixel, cuts ? &cut : NULL);
+        raster_level(raster, shape, shade_pixel(shade), cuts ? &cut : NULL);
     else
-        raster_plane(raster, shape, shade.pixel, cuts ? &cut : NULL);
+        raster_plane(raster, shape, shade_pixel(shade), cuts ? &cut : NULL);
 }
 
 /* Draws a leaf whose corners are beyond some sides of the band, or none. */
@@ -82,7 +82,7 @@ COPIED void draw_leaf(const walk_t *walk, const yb_point_t *const p[3], int some
         draw_odd(frame, raster, p, &shape, small);
         return;
     }
-    raster_plain(raster, &shape, shade_ground(frame, p).pixel);
+    raster_plain(raster, &shape, shade_pixel(shade_ground(frame, p)));
 }
 
 /* A leaf that is beyond some sides of the band in part. */

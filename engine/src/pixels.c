@@ -14,6 +14,18 @@ static const uint8_t dither[17][4] YB_ROM = {
     {0xff, 0xff, 0xff, 0x77}, {0xff, 0xff, 0xff, 0xff},
 };
 
+#if !COPIES
+void pixels_fill_colour(uint8_t *row, int32_t x, int32_t end, uint16_t colour)
+{
+    pixels_fill_colour_here(row, x, end, colour);
+}
+
+void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsigned grey)
+{
+    pixels_fill_grey_here(row, x, end, grey);
+}
+#endif
+
 void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky)
 {
     const size_t bytes = yb_band_row_bytes(raster->screen);

@@ -11,6 +11,7 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "compiler.h"
 #include "fix.h"
 #include "raster.h"
 
@@ -82,7 +83,7 @@ static inline void pixels_put_pair(uint8_t *at, uint32_t pair)
 }
 
 /* Draws on what is free of the pixels from x up to end of a row. */
-static inline void pixels_fill_colour(uint8_t *row, int32_t x, int32_t end, uint16_t colour)
+TINY void pixels_fill_colour_here(uint8_t *row, int32_t x, int32_t end, uint16_t colour)
 {
     const uint16_t swapped = pixels_swapped(colour);
     uint8_t *at = row + 2 * x;
@@ -113,7 +114,7 @@ static inline void pixels_put_grey(uint8_t *row, int32_t x, unsigned grey)
         *at = (uint8_t)(*at | grey << high);
 }
 
-static inline void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsigned grey)
+TINY void pixels_fill_grey_here(uint8_t *row, int32_t x, int32_t end, unsigned grey)
 {
     if (x >= end)
         return;
@@ -136,6 +137,15 @@ static inline void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsign
     if ((end & 1) != 0 && (*to & 0xf0) == 0)
         *to = (uint8_t)(*to | high);
 }
+
+/* The same, where a call takes less room. */
+#if COPIES
+#define pixels_fill_colour pixels_fill_colour_here
+#define pixels_fill_grey pixels_fill_grey_here
+#else
+void pixels_fill_colour(uint8_t *row, int32_t x, int32_t end, uint16_t colour);
+void pixels_fill_grey(uint8_t *row, int32_t x, int32_t end, unsigned grey);
+#endif
 
 /* Nothing but the sky in row y. */
 void pixels_clear(const raster_t *raster, int32_t y, uint16_t sky);

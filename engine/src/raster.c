@@ -62,8 +62,8 @@ static inline int32_t crossing_of(const side_t *side)
 }
 
 /* Draws a small triangle: in one pixel value, or with lines. */
-COPIED void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
-                       uint16_t pixel, const raster_cut_t *cut)
+TINY void draw_level(bool colours, const raster_t *raster, const raster_shape_t *shape,
+                     uint16_t pixel, const raster_cut_t *cut)
 {
     const yb_spot_t *a = shape->p[0];
     const yb_spot_t *b = shape->p[1];
@@ -141,17 +141,34 @@ void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t 
     if (cut != NULL)
         draw_lines(raster, shape, cut);
     else
-        ROWS_DRAW(draw_level, raster, shape, pixel, NULL);
+        raster_plain(raster, shape, pixel);
 }
 #else
+/* Greys have a copy even here: what they need nearly fits the registers. */
+APART void draw_greys(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel)
+{
+    draw_level(false, raster, shape, pixel, NULL);
+}
+
 void raster_level(const raster_t *raster, const raster_shape_t *shape, uint16_t pixel,
                   const raster_cut_t *cut)
 {
-    draw_level(raster->colours, raster, shape, pixel, cut);
+    if (cut == NULL && !raster->colours)
+        draw_greys(raster, shape, pixel);
+    else
+        draw_level(cut == NULL || raster->colours, raster, shape, pixel, cut);
 }
 #endif
 
 /* --- Triangles -------------------------------------------------------------------------------- */
+
+#if !COPIES
+raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                           raster_shape_t *shape)
+{
+    return raster_front_here(a, b, c, shape);
+}
+#endif
 
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
                           const yb_spot_t *c, uint16_t pixel)

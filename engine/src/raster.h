@@ -4,6 +4,7 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "compiler.h"
 #include "fix.h"
 
 /* Twice an area in 1/256 square pixel. Corners lie within a screen size and a little of the screen,
@@ -72,8 +73,8 @@ static inline bool raster_is_within(int32_t dx, int32_t most)
 }
 
 /* Looks at a triangle, counter-clockwise from the front, whose corners have spots. */
-static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
-                                         raster_shape_t *shape)
+TINY raster_look_t raster_front_here(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                                     raster_shape_t *shape)
 {
     if (b->y_q4 < a->y_q4 && b->y_q4 <= c->y_q4) {
         const yb_spot_t *last = a;
@@ -105,6 +106,14 @@ static inline raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b,
                ? RASTER_SMALL
                : RASTER_FRONT;
 }
+
+/* The same, where a call takes less room. */
+#if COPIES
+#define raster_front raster_front_here
+#else
+raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
+                           raster_shape_t *shape);
+#endif
 
 /* Leaves what is in the raster's rows of a triangle. False: nothing. */
 static inline bool raster_clip(const raster_t *raster, raster_shape_t *shape)

@@ -3,6 +3,7 @@
 #include <yamabiko/rom.h>
 
 #include "colour.h"
+#include "cosine.h"
 #include "fix.h"
 #include "lines.h"
 #include "relief.h"
@@ -20,40 +21,6 @@ typedef struct {
     int32_t x, y, z;
 } normal_t;
 
-/* The square of the least cosine that has this shade, 12 fractional bits: shades grow by a 14th of
- * the cosine and are rounded down, but for a quarter that is added, so that level ground and water
- * below a sun 30 degrees high, a half on the dot, have one shade whatever triangles they are made
- * of.
- */
-#define LEAST(shade)                                                                               \
-    (uint16_t)((((int32_t)1 << 12) * (4 * (shade)-9) * (4 * (shade)-9) + 28 * 56) / (56 * 56))
-
-/* As a tree: below entry i lie the ones at 2i and, for what is less, 2i + 1. Nothing is less than
- * the darkest.
- */
-static const uint16_t least_squares[SHADES] YB_ROM = {
-    0,         LEAST(8),  LEAST(12), LEAST(4), LEAST(14), LEAST(10), LEAST(6), 0,
-    LEAST(15), LEAST(13), LEAST(11), LEAST(9), LEAST(7),  LEAST(5),  LEAST(3), 0};
-
-static inline uint32_t below(uint32_t i, uint32_t square, uint32_t whole_q12)
-{
-    /* The sign of a difference between numbers below 2^31 asks without a branch. */
-    return 2 * i + ((square - whole_q12 * yb_rom_u16(&least_squares[i])) >> 31);
-}
-
-/* The shade by the square of a cosine, which is that of a number of 15 bits over 2^12 times another
- * one of 18 bits. Entries are below 2^12: products are below 2^30.
- */
-static inline int32_t shade_from(uint32_t number, uint32_t whole_q12)
-{
-    const uint32_t square = number * number;
-    uint32_t i = below(1, square, whole_q12);
-    i = below(i, square, whole_q12);
-    i = below(i, square, whole_q12);
-    i = below(i, square, whole_q12);
-    return (int32_t)(~i & (SHADES - 1));
-}
-
 /* Brings the greatest of three numbers below 2^31 to 13 bits. The third, which has 32, is above 0.
  */
 static inline normal_t to_13_bits(int32_t x, int32_t y, uint32_t z)
@@ -64,7 +31,10 @@ static inline normal_t to_13_bits(int32_t x, int32_t y, uint32_t z)
     return (normal_t){x * (1 << -shift), y * (1 << -shift), (int32_t)(z << -shift)};
 }
 
-/* The square of a direction's length. Components of up to 15 bits: three squares are below 2^32. */
+/* The square of a direction's length: of components of up to 15 bits, whose squares are below 2^32.
+ * It is at least 2^22: one of 13 bits, x, may become x - 3 z when smooth_normal makes 7/4 z of z,
+ * which is shortest, by a half, where z is a quarter of it.
+ */
 static inline uint32_t square_of(normal_t n)
 {
     return (uint32_t)(n.x * n.x) + (uint32_t)(n.y * n.y) + (uint32_t)(n.z * n.z);
@@ -78,7 +48,7 @@ static inline int32_t sun_light(const yb_frame_t *frame, normal_t n)
 {
     const int16_t *sun = frame->view.sun_q14;
     int32_t dot = n.x * sun[0] + n.y * sun[1] + n.z * sun[2];
-    return dot <= 0 ? DARKEST : shade_from((uint32_t)dot >> 15, square_of(n) >> 14);
+    return dot <= 0 ? DARKEST : cosine_shade((uint32_t)dot >> 15, square_of(n) >> 14);
 }
 
 /* A number of 32 bits times so many powers of four is above 2^30. */
@@ -106,7 +76,7 @@ static int32_t lamp_light(const yb_frame_t *frame, const yb_point_t *at, normal_
     /* No more than the lengths' product, below 2^32. */
     uint32_t along = (uint32_t)dot << (more + way_more);
     uint32_t whole = (square << 2 * more >> 16) * (way_square << 2 * way_more >> 16);
-    return shade_from(along >> 17, whole >> 14);
+    return cosine_shade(along >> 17, whole >> 14);
 }
 
 /* A triangle's upward normal, where the vertical scale is true.
@@ -215,7 +185,7 @@ APART shade_t coloured(const yb_frame_t *frame, const yb_point_t *const corner[3
     const int32_t middle =
         ((corner[0]->z_q8 + corner[1]->z_q8 + corner[2]->z_q8) >> 4) * 5461 >> 10;
     const int32_t near = (frame->looks & LOOK_HAZE) == 0 ? 0 : nearest_of(corner);
-    return (shade_t){colour_pixel(frame, hue_of(frame, middle), shade, near), (uint16_t)light};
+    return shade_of(colour_pixel(frame, hue_of(frame, middle), shade, near), light);
 }
 
 /* How many corners of a triangle lie in the water. */
@@ -249,13 +219,13 @@ APART shade_t look_of(const yb_frame_t *frame, const yb_point_t *const corner[3]
     uint16_t pixel = (uint16_t)shade;
     if (!USUAL((looks & (LOOK_ODD | LOOK_COLOURS)) == 0)) {
         if ((looks & LOOK_ODD) != 0 && wet_corners(frame, corner) == 3)
-            return (shade_t){water_pixel(frame, shade, nearest_of(corner)), (uint16_t)light};
+            return shade_of(water_pixel(frame, shade, nearest_of(corner)), light);
         if ((looks & LOOK_COLOURS) != 0)
             return coloured(frame, corner, shade, light);
     }
     if ((looks & LOOK_HAZE) != 0)
         pixel = colour_grey(frame, shade, nearest_of(corner));
-    return (shade_t){pixel, (uint16_t)light};
+    return shade_of(pixel, light);
 }
 
 shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
@@ -265,15 +235,14 @@ shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3])
     const uint32_t looks = frame->looks;
     int32_t light;
     if (USUAL((looks & LOOK_ODD) == 0)) {
-        if (USUAL(frame->smooth))
-            smooth_normal(slopes, &normal);
+        smooth_normal(slopes, &normal);
         light = sun_light(frame, normal);
     } else {
         light = odd_light(frame, corner, ((uint32_t)normal.x & 0xffff) | (uint32_t)normal.y << 16,
                           normal.z);
     }
     if (USUAL(looks == 0))
-        return (shade_t){(uint16_t)light, (uint16_t)light};
+        return shade_of((uint16_t)light, light);
     if (looks == LOOK_COLOURS)
         return coloured(frame, corner, light, light);
     return look_of(frame, corner, light);
@@ -306,8 +275,8 @@ COPIED bool cut_by(const yb_frame_t *frame, const yb_point_t *const p[3], shade_
         return false;
     const int32_t near = nearest_of(p);
     int hue = HUE_LINE;
-    int32_t light = shade.light;
-    cut->below = cut->above = shade.pixel;
+    int32_t light = (int32_t)(shade >> 16);
+    cut->below = cut->above = shade_pixel(shade);
     if (shore) {
         hue = HUE_SHORE;
         light = SHADES - 1;

@@ -6,13 +6,20 @@
 
 #include "raster.h"
 
-/* What a triangle looks like: its pixel value, and its shade without cast shadows. Aligned as a
- * number, it is handed on as one.
+/* What a triangle looks like: its pixel value, and in the upper half its shade without cast
+ * shadows. As one number it is handed on in a register, and made in one instruction.
  */
-typedef struct {
-    _Alignas(uint32_t) uint16_t pixel;
-    uint16_t light;
-} shade_t;
+typedef uint32_t shade_t;
+
+static inline shade_t shade_of(uint16_t pixel, int32_t light)
+{
+    return pixel | (uint32_t)light << 16;
+}
+
+static inline uint16_t shade_pixel(shade_t shade)
+{
+    return (uint16_t)(shade & 0xffff);
+}
 
 /* Of a triangle of the ground (or of the water, where all three corners are in it). */
 shade_t shade_ground(const yb_frame_t *frame, const yb_point_t *const corner[3]);

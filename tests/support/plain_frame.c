@@ -103,7 +103,7 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
 {
     drawing_t *drawing = context;
     const shade_t shade = shade_ground(drawing->frame, p);
-    const uint16_t pixel = shade.pixel;
+    const uint16_t pixel = shade_pixel(shade);
     if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0)
         (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
     else {

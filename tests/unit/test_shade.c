@@ -7,6 +7,7 @@
 
 #include "check.h"
 #include "colour.h"
+#include "cosine.h"
 #include "maps.h"
 #include "plan.h"
 #include "random_plan.h"
@@ -111,9 +112,9 @@ static void light_is_lamberts(void **state)
                     (uint16_t)rng_range(&rng, 500, 16384));
         begin(YB_GREY4);
         random_triangle(&rng, p, 4, 15);
-        const double shade = shade_ground(&frame, corner).pixel;
+        const double shade = shade_pixel(shade_ground(&frame, corner));
         frame.looks |= LOOK_ODD; /* there might be a lamp, or water */
-        assert_int_equal(shade_ground(&frame, corner).pixel, (int)shade);
+        assert_int_equal(shade_pixel(shade_ground(&frame, corner)), (int)shade);
         /* Rounded down, so between the truth and one below it. */
         const double off = fabs(shade + 0.5 - true_shade(p));
         worst = off > worst ? off : worst;
@@ -121,6 +122,45 @@ static void light_is_lamberts(void **state)
     }
     map.smooth = true;
     print_message("shades are within %.3f of the truth, rounded down\n", worst - 0.5);
+}
+
+/* The shade of the square of a cosine: the greatest that begins no later. */
+static int exact_shade(uint64_t square, uint64_t whole_q12)
+{
+    int shade = DARKEST;
+    while (shade + 1 < SHADES && square >= whole_q12 * COSINE_LEAST(shade + 1))
+        shade++;
+    return shade;
+}
+
+static void check_cosine(uint32_t number, uint32_t whole_q12)
+{
+    const int shade = exact_shade((uint64_t)number * number, whole_q12);
+    CHECK(cosine_divided(number, whole_q12) == shade && cosine_searched(number, whole_q12) == shade,
+          "%u^2 over %u has shades %d and %d, not %d", number, whole_q12,
+          (int)cosine_divided(number, whole_q12), (int)cosine_searched(number, whole_q12), shade);
+}
+
+/* Both ways from a cosine to a shade agree, around all beginnings of shades and a little above 1.
+ */
+static void cosines_have_their_shades(void **state)
+{
+    (void)state;
+    rng_t rng = {606};
+    for (int round = 0; round < 20000; round++) {
+        const int bits = rng_range(&rng, 8, 17);
+        const uint32_t least = (uint32_t)1 << bits;
+        const uint32_t whole = least + (uint32_t)rng_range(&rng, 0, (int)least - 1);
+        const uint32_t one = (uint32_t)sqrt(4096.0 * whole);
+        for (uint32_t shade = DARKEST + 1; shade <= SHADES; shade++) {
+            const uint32_t from = shade < SHADES ? COSINE_LEAST(shade) : 4096;
+            const uint32_t number = (uint32_t)sqrt((double)from * whole);
+            for (uint32_t n = number > 2 ? number - 2 : 0; n <= number + 2 && n < 32768; n++)
+                check_cosine(n, whole);
+        }
+        check_cosine(0, whole);
+        check_cosine((uint32_t)rng_range(&rng, 0, (int)fmin(one + one / 256, 32767)), whole);
+    }
 }
 
 /* A lamp far away in the sun's direction lights as the sun does, one nearby as it stands. */
@@ -146,9 +186,9 @@ static void a_lamp_shines_from_its_place(void **state)
             frame.view.sun_q14[i] = (int16_t)lround(way[i] / length * 16384);
         }
         frame.view.lamp = true;
-        const int by_lamp = shade_ground(&frame, corner).pixel;
+        const int by_lamp = shade_pixel(shade_ground(&frame, corner));
         frame.view.lamp = false;
-        const int by_sun = shade_ground(&frame, corner).pixel;
+        const int by_sun = shade_pixel(shade_ground(&frame, corner));
         assert_true(abs(by_lamp - by_sun) <= 1);
         beside += by_lamp != by_sun;
     }
@@ -169,12 +209,12 @@ static void shadows_dim_and_never_hide(void **state)
         const yb_point_t *const corner[3] = {&p[0], &p[1], &p[2]};
         random_triangle(&rng, p, 7, 13);
         frame.view.shadow = NULL;
-        const int plain = shade_ground(&frame, corner).pixel;
+        const int plain = shade_pixel(shade_ground(&frame, corner));
         frame.view.shadow = &shadow;
         memset(lit, 0xff, sizeof lit);
-        assert_int_equal(shade_ground(&frame, corner).pixel, plain);
+        assert_int_equal(shade_pixel(shade_ground(&frame, corner)), plain);
         memset(lit, 0, sizeof lit);
-        const int dark = shade_ground(&frame, corner).pixel;
+        const int dark = shade_pixel(shade_ground(&frame, corner));
         assert_in_range(dark, DARKEST, plain);
         assert_true(plain < DARKEST + 2 || dark < plain);
         darker += dark < plain;
@@ -296,7 +336,7 @@ static void lines_stand_out(void **state)
             random_triangle(&rng, p, 7, 13);
             const double steepest = see_from_above(p);
             const shade_t shade = shade_ground(&frame, corner);
-            const uint16_t pixel = shade.pixel;
+            const uint16_t pixel = shade_pixel(shade);
             bool crossed = false;
             for (int i = 0; i < 3; i++)
                 crossed = crossed || p[i].z_q8 / 300 != p[0].z_q8 / 300;
@@ -320,6 +360,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(light_is_lamberts, start_view),
+        cmocka_unit_test(cosines_have_their_shades),
         cmocka_unit_test_setup(a_lamp_shines_from_its_place, start_view),
         cmocka_unit_test_setup(shadows_dim_and_never_hide, start_view),
         cmocka_unit_test_setup(haze_takes_over_with_distance, start_view),
