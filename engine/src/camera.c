@@ -11,8 +11,8 @@ enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
     LEAST_NEAR = 64,  /* in the view's own unit: what rounding does must stay small beside it */
     LEAST_ZOOM_Q12 = 1024,
-    NEARER_Q4 = 60, /* what edges near the eye may be longer */
-    OPEN_TURN = 3 /* ground is open where a third of the way to it, or more, is along its normal */
+    NEARER_Q4 = 118, /* what edges near the eye may be longer */
+    OPEN_TURN = 2    /* triangles are open where they are seen from 30 degrees or more: a half */
 };
 
 /* --- Views ------------------------------------------------------------------------------------ */
@@ -140,7 +140,7 @@ static inline way_t way_to(const yb_frame_t *frame, uint32_t place, int32_t top_
     return (way_t){
         ((int32_t)(place & 0xffff) - eye[0]) >> frame->eye_shift,
         ((int32_t)(place >> 16) - eye[1]) >> frame->eye_shift,
-        (((top_q8 * frame->view.exaggerate_q8) >> 8) - eye[2]) >> frame->eye_shift,
+        camera_rise(frame, top_q8),
     };
 }
 
@@ -291,7 +291,7 @@ static uint32_t usual_edge(const yb_frame_t *frame)
     const int32_t width = frame->screen.width;
     const int32_t far = 3 * fix_max(frame->map->east_q8, frame->map->north_q8) >> 3;
     const int32_t near = fix_min(frame->near << frame->eye_shift, far);
-    return (uint32_t)(fix_max(89 * width / 96 - 15, (width + 1) >> 1) +
+    return (uint32_t)(fix_max(86 * width / 96 - 16, (width + 1) >> 1) +
                       NEARER_Q4 * (far - near) / far);
 }
 
@@ -302,6 +302,8 @@ static uint32_t usual_edge(const yb_frame_t *frame)
 static void find_lengths(yb_frame_t *frame, uint64_t whole)
 {
     int32_t steep = foreshortening(frame);
+    /* Where lengths are foreshortened already, triangles are open from less on. */
+    frame->open_turn = (uint8_t)(OPEN_TURN * ((int32_t)1 << 14) / steep);
     int32_t wide = (steep + (1 << 14)) >> 1;
     int32_t high = (steep * wide) >> 14;
     frame->along_x = (frame->right_y * high) >> 15;
@@ -314,23 +316,6 @@ static void find_lengths(yb_frame_t *frame, uint64_t whole)
         edge_q4 = usual_edge(frame);
     frame->thin_q4 = (int32_t)edge_q4;
     frame->longest = fix_share(whole * edge_q4, (uint32_t)(2 * frame->focal_q4), UINT32_MAX);
-}
-
-/* How far the ground at a vertex is turned to the eye: the way there along the upward normal
- * (-gx, -gy, 1), over its length, times `turn`. The normal's components are below 2^2 and, raised,
- * 2^5, the way's below 2^16: below 2^23, and times `turn`, which is up to 3 * 2^2, and 4, 2^29.
- */
-static uint8_t open_of(const yb_frame_t *frame, const yb_vertex_t *v, int32_t top_q8, int32_t turn)
-{
-    const way_t way = way_to(frame, relief_place(v), top_q8);
-    int32_t rise = 0; /* of the ground on that way; of water, none */
-    if (top_q8 == v->z_q8)
-        rise = ((way.x * v->gx_q11 + way.y * v->gy_q11) >> 11) * frame->view.exaggerate_q8 >> 8;
-    const int32_t turned = turn * (rise - way.z);
-    const int32_t length = fix_max(fix_length(way.x, way.y), fix_abs(way.z));
-    if (turned >= length)
-        return CAMERA_OPEN;
-    return (uint8_t)(4 * turned <= length ? CAMERA_OPEN / 4 : turned * CAMERA_OPEN / length);
 }
 
 void camera_begin(yb_frame_t *frame, int32_t stray)
@@ -347,7 +332,6 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
     frame->spare_q4 = 3 * frame->focal_q4 / frame->near; /* below 2^12 */
     find_lift(frame, whole, (uint32_t)bend);
     find_lengths(frame, whole);
-    const int32_t turn = OPEN_TURN * ((int32_t)1 << 14) / foreshortening(frame);
     for (int i = 0; i < frame->map->vertex_count; i++) {
         const yb_vertex_t *v = &frame->map->vertex[i];
         yb_point_t *point = &frame->root[0]; /* no triangle needs it yet */
@@ -357,7 +341,6 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
         frame->seen[i].x_q4 = point->spot.x_q4;
         frame->seen[i].y_q4 = point->spot.y_q4;
         frame->seen[i].near = point->spot.near;
-        frame->open[i] = open_of(frame, v, point->top_q8, turn);
     }
 }
 

@@ -16,14 +16,12 @@ typedef struct {
     int32_t right, up, depth; /* within 2^17; in quarters, where clip.c cuts */
 } camera_point_t;
 
-/* How open to the eye the ground at a vertex is: so much of the length of an edge there counts for
- * whether it is split. All of it, but for ground that is seen nearly along its slope, and a quarter
- * of it for ground that is seen from behind, and mostly hidden.
- */
-enum {
-    CAMERA_OPEN_BITS = 7,
-    CAMERA_OPEN = 1 << CAMERA_OPEN_BITS
-};
+/* How far a height is above the eye, in the view's unit: within 2^16. */
+static inline int32_t camera_rise(const yb_frame_t *frame, int32_t top_q8)
+{
+    return (((top_q8 * frame->view.exaggerate_q8) >> 8) - frame->view.eye_q8[2]) >>
+           frame->eye_shift;
+}
 
 /* Cuts frame's view to its limits: see yb_view_t. */
 void camera_clamp(yb_frame_t *frame);
@@ -60,7 +58,6 @@ static inline void camera_root(const yb_frame_t *frame, yb_index_t i, yb_point_t
     point->spot.x_q4 = seen->x_q4;
     point->spot.y_q4 = seen->y_q4;
     point->spot.near = seen->near;
-    point->spot.open = frame->open[i];
 }
 
 /* The point straight above or below `point` at height z, to be drawn there, under water or not. */

@@ -3,6 +3,7 @@
  */
 #include "camera.h"
 #include "fix.h"
+#include "mesh.h"
 #include "order.h"
 #include "refine.h"
 #include "relief.h"
@@ -83,16 +84,16 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
     return unless_under_water(frame, a, b, edge);
 }
 
-yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
+yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                      int32_t open)
 {
     int32_t dx = relief_dx(a->place, b->place);
     int32_t dy = relief_dy(a->place, b->place);
     /* Below 2^16 each, times 2^13, which has the length of a unit vector: below 2^30. */
     int32_t across = fix_abs(dx * frame->across_x + dy * frame->across_y) >> 14;
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
-    const int32_t open = fix_max(a->spot.open, b->spot.open);
-    const int32_t length = fix_length(across, along) * open >> CAMERA_OPEN_BITS;
-    const yb_edge_t turned = open < CAMERA_OPEN ? REFINE_TURNED : 0;
+    const int32_t length = fix_length(across, along) * open >> ORDER_OPEN_BITS;
+    const yb_edge_t turned = open < ORDER_OPEN ? REFINE_TURNED : 0;
     yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)length | turned);
     if (edge < REFINE_ONCE)
         return edge;
@@ -263,9 +264,14 @@ bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
     }
     if (beyond != 0 && refine_root_misses(frame, view, part->point))
         return false;
-    part->edge[0] = refine_edge(frame, &frame->root[0], &frame->root[1]);
-    part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2]);
-    part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0]);
+    const yb_across_t across = yb_map_across(frame->map)[triangle];
+    const int32_t open = frame->open[triangle];
+    part->edge[0] =
+        refine_edge(frame, &frame->root[0], &frame->root[1], order_open(frame, open, across));
+    part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2],
+                                order_open(frame, open, across >> ENTRY_BITS));
+    part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0],
+                                order_open(frame, open, across >> 2 * ENTRY_BITS));
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, v) : 0;
     order_root(frame, corner, part);
     return true;

@@ -89,8 +89,8 @@ yb_frame_t *yb_frame_place(yb_map_t *map, size_t bytes, const yb_screen_t *scree
     const size_t at_frame = aligned(
         map, yb_map_packed_at(map) + triangles * (sizeof *map->across + sizeof *map->triangle));
     const size_t at_band =
-        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * (sizeof(yb_seen_t) + 1) +
-                         triangles * (sizeof(yb_triangle_t) + 1));
+        aligned(map, at_frame + offsetof(yb_frame_t, seen) + vertices * sizeof(yb_seen_t) +
+                         triangles * (sizeof(yb_triangle_t) + 2));
     const size_t row = yb_band_row_bytes(screen);
     if (row == 0 || bytes < at_band + row)
         return NULL;

@@ -1,15 +1,9 @@
 #include "order.h"
 
+#include "camera.h"
 #include "fix.h"
 #include "mesh.h"
 #include "relief.h"
-
-void order_begin(yb_frame_t *frame)
-{
-    frame->eye_x_q6 = frame->view.eye_q8[0] >> 2;
-    frame->eye_y_q6 = frame->view.eye_q8[1] >> 2;
-    frame->order_for = ORDER_NONE;
-}
 
 /* How far the eye is to the left of the line from a place to another, times its length: below 0, to
  * its right; of ba the same with the other sign, or 0 for both. Vertices lie on a lattice of
@@ -77,11 +71,54 @@ enum {
     HIDDEN = 8
 };
 
-APART unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
-                        yb_across_t across)
+/* How far a place without a spot is from the eye, in the view's unit: within 1.375 * 2^16. */
+APART int32_t distance_of(const yb_frame_t *frame, const yb_vertex_t *v, int32_t rise)
 {
-    int32_t left[3];
-    find_left(frame, corner, left);
+    const int32_t x = (v->x_q8 - frame->view.eye_q8[0]) >> frame->eye_shift;
+    const int32_t y = (v->y_q8 - frame->view.eye_q8[1]) >> frame->eye_shift;
+    return fix_max(fix_length(x, y), fix_abs(rise));
+}
+
+/* How far a triangle is open: how high above its plane the eye is, over how far its nearest corner
+ * is, times frame->open_turn, which is 12 at most. Where the eye is in plan the plane has the mean
+ * height of the corners, each by how far the eye is from the opposite side: of 12 bits each, sums
+ * are below 3 * 2^12, and times a height, below 2^16, or a distance, below 2^17, below 2^31.
+ */
+APART uint8_t open_of(const yb_frame_t *frame, const yb_index_t *corner, const int32_t left[3])
+{
+    const int shift =
+        fix_log2_floor(fix_size(left[0]) | fix_size(left[1]) | fix_size(left[2]) | 1 << 11) - 11;
+    const uint32_t scale = (uint32_t)frame->near << 15;
+    int32_t area = 0;
+    int32_t above = 0;
+    int32_t nearest = INT32_MAX;
+    uint32_t near = 1;
+    for (int i = 0; i < 3; i++) {
+        const yb_index_t opposite = corner[i == 0 ? 2 : i - 1];
+        const yb_vertex_t *v = &frame->map->vertex[opposite];
+        const int32_t rise = camera_rise(frame, fix_max(v->z_q8, frame->view.water_q8));
+        const int32_t weight = left[i] >> shift;
+        const uint32_t its = frame->seen[opposite].near;
+        area += weight;
+        above -= weight * rise;
+        if (its == 0)
+            nearest = fix_min(nearest, distance_of(frame, v, rise));
+        near = its > near ? its : near;
+    }
+    if (above <= 0)
+        return ORDER_OPEN / 4;
+    if (near > 1)
+        nearest = fix_min(nearest, (int32_t)(scale / (near >> 1)));
+    const int32_t whole = area * nearest;
+    const int32_t turned = (above >> 4) * frame->open_turn;
+    if (turned >= whole >> 4)
+        return ORDER_OPEN;
+    return (uint8_t)fix_max(turned / ((whole >> (4 + ORDER_OPEN_BITS)) + 1), ORDER_OPEN / 4);
+}
+
+static inline unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
+                                const int32_t left[3], yb_across_t across)
+{
     unsigned found = 0;
     for (int i = 0; i < 3; i++, across >>= ENTRY_BITS) {
         if ((across & NO_TRIANGLE) == NO_TRIANGLE ||
@@ -103,7 +140,10 @@ static bool sort(yb_frame_t *frame, int which)
     uint8_t *const known = frame->bins; /* not in use yet */
     yb_triangle_t ready = 0;
     for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
-        const unsigned found = hides_of(frame, which, corner, across[t]);
+        int32_t left[3];
+        find_left(frame, corner, left);
+        frame->open[t] = open_of(frame, corner, left);
+        const unsigned found = hides_of(frame, which, corner, left, across[t]);
         known[t] = (uint8_t)found;
         if (found < HIDDEN)
             order[ready++] = t;
@@ -129,6 +169,13 @@ static bool sort(yb_frame_t *frame, int which)
     return false;
 }
 
+void order_begin(yb_frame_t *frame)
+{
+    frame->eye_x_q6 = frame->view.eye_q8[0] >> 2;
+    frame->eye_y_q6 = frame->view.eye_q8[1] >> 2;
+    frame->order_for = sort(frame, ORDER_ALL) ? ORDER_ALL : ORDER_NONE;
+}
+
 /* Do the lines of sight through a row of pixels go ahead, in plan? All of a row go the same way. */
 static int row_way(const yb_frame_t *frame, int32_t row)
 {
@@ -138,8 +185,6 @@ static int row_way(const yb_frame_t *frame, int32_t row)
 
 int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end)
 {
-    if (frame->order_for == ORDER_NONE && sort(frame, ORDER_ALL))
-        frame->order_for = ORDER_ALL;
     if (frame->order_for == ORDER_ALL)
         return end;
     const int way = row_way(frame, row);

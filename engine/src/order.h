@@ -16,6 +16,9 @@
 
 #include <yamabiko/yamabiko.h>
 
+#include "fix.h"
+#include "mesh.h"
+
 /* yb_frame_t.order_for: what frame->order is good for. Lines of sight that go round the eye may
  * meet triangles in a circle, each in front of the next; those that go ahead of it, or back,
  * cannot, for then there is a last one.
@@ -27,7 +30,26 @@ enum {
     ORDER_BACK
 };
 
-/* A frame whose camera has begun has no order yet. The eye is taken as where it is to 1/64 step. */
+/* How far a base triangle is open to the eye (frame->open): so much of the length of its edges, or
+ * of those of the one beside it, if that is more, counts for whether they are split. All of it, but
+ * for a triangle that is seen nearly along its plane, and a quarter of it for one that is seen from
+ * behind, and mostly hidden.
+ */
+enum {
+    ORDER_OPEN_BITS = 7,
+    ORDER_OPEN = 1 << ORDER_OPEN_BITS
+};
+
+/* An edge of a triangle that is so far open, by the entry across it. */
+static inline int32_t order_open(const yb_frame_t *frame, int32_t open, yb_across_t across)
+{
+    const yb_across_t beside = across & NO_TRIANGLE;
+    return open == ORDER_OPEN || beside == NO_TRIANGLE ? open : fix_max(open, frame->open[beside]);
+}
+
+/* Of a frame whose camera has begun: finds the order of all rows, if there is one, and how far its
+ * triangles are open. The eye is taken as where it is to 1/64 step.
+ */
 void order_begin(yb_frame_t *frame);
 
 /* Has the base triangles in frame->order as some rows show them, and says up to which, after `row`

@@ -85,8 +85,9 @@ static inline uint32_t refine_parity(const yb_point_t *a, const yb_point_t *b)
     return parity | parity >> 16;
 }
 
-/* An edge that is no half of another one. */
-yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b);
+/* An edge that is no half of another one, as far as it is open: see order.h. */
+yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
+                      int32_t open);
 
 /* The edge ab with its number of halvings, asked anew. */
 yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,

@@ -82,7 +82,7 @@ static void draw_wall(yb_frame_t *frame, const raster_t *raster, wall_t corner)
  * second.
  */
 static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster_t *raster,
-                      yb_index_t a, yb_index_t b)
+                      yb_index_t a, yb_index_t b, int32_t open)
 {
     const yb_vertex_t *const v = frame->map->vertex;
     yb_point_t *const end = frame->root;
@@ -93,7 +93,7 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     camera_drop(frame, &end[1], frame->base_q8, &right);
     yb_part_t root = {
         .point = {&end[0], &end[1], &end[1]},
-        .edge = {refine_edge(frame, &end[0], &end[1]), 0, 0},
+        .edge = {refine_edge(frame, &end[0], &end[1], open), 0, 0},
         .bulge = refine_bulge(frame->map, (const yb_vertex_t *const[3]){&v[a], &v[b], &v[b]}),
     };
     const int32_t stray = refine_stray(frame, &root);
@@ -142,7 +142,7 @@ void walls_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *ra
         for (int i = 0; i < 3; i++) {
             if (!faces(frame->map, corner, i, side))
                 continue;
-            draw_edge(frame, view, raster, corner[i], corner[next3(i)]);
+            draw_edge(frame, view, raster, corner[i], corner[next3(i)], frame->open[t]);
         }
     }
 }

@@ -283,12 +283,98 @@ static void each_comes_after_its_hiders(void **state)
     assert_true(edges > 100000);
 }
 
+/* --- How far triangles are open --------------------------------------------------------------- */
+
+static double clamped(double a, double low, double high)
+{
+    return a < low ? low : a > high ? high : a;
+}
+
+/* How far a corner is from the eye, as it is taken: its depth, or else the longer of the way in
+ * plan and in height.
+ */
+static double distance_to(const double way[3], uint16_t near)
+{
+    if (near > 0)
+        return 65535.0 * frame.near * (1 << frame.eye_shift) / near;
+    return fmax(hypot(way[0], way[1]), fabs(way[2]));
+}
+
+/* A triangle is open by how high the eye is above its plane, against its nearest corner: within 8
+ * %, and what the weights of its corners are rounded by. -1: it is too thin for that.
+ */
+static int check_open(const yb_view_t *view, int t)
+{
+    const yb_index_t *corner = yb_map_triangle(&map, (yb_triangle_t)t);
+    double way[3][3];
+    double nearest = (double)INFINITY;
+    double highest = 0;
+    for (int i = 0; i < 3; i++) {
+        const yb_vertex_t *v = &map.vertex[corner[i]];
+        const int32_t top = v->z_q8 > view->water_q8 ? v->z_q8 : view->water_q8;
+        way[i][0] = v->x_q8 - (double)view->eye_q8[0];
+        way[i][1] = v->y_q8 - (double)view->eye_q8[1];
+        way[i][2] = top * (view->exaggerate_q8 / 256.0) - view->eye_q8[2];
+        nearest = fmin(nearest, distance_to(way[i], frame.seen[corner[i]].near));
+        highest = fmax(highest, fabs(way[i][2]));
+    }
+    double area = 0;
+    double above = 0;
+    double most = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = way[i];
+        const double *b = way[(i + 1) % 3];
+        const double left = a[0] * b[1] - a[1] * b[0];
+        area += left;
+        above -= left * way[(i + 2) % 3][2];
+        most = fmax(most, fabs(left));
+    }
+    const double steep = (fmax(way[0][2], fmax(way[1][2], way[2][2])) -
+                          fmin(way[0][2], fmin(way[1][2], way[2][2]))) /
+                         sqrt(area);
+    if (area < most / 64 || steep > 16)
+        return -1;
+    const double turned = frame.open_turn * above / area / nearest;
+    const double off =
+        0.02 + frame.open_turn *
+                   (highest * most / area / 500 + 16 * steep + 4 * (1 << frame.eye_shift)) /
+                   nearest;
+    const double open = frame.open[t] / (double)ORDER_OPEN;
+    assert_true(open >= clamped(turned * (turned > 0 ? 0.92 : 1.08) - off, 0.25, 1) - 0.01);
+    assert_true(open <= clamped(turned * (turned > 0 ? 1.08 : 0.92) + off, 0.25, 1) + 0.01);
+    return frame.open[t] == ORDER_OPEN ? 2 : frame.open[t] > ORDER_OPEN / 4 ? 1 : 0;
+}
+
+static void triangles_are_open_as_they_are_turned(void **state)
+{
+    (void)state;
+    static const yb_screen_t screen = {WIDTH, HEIGHT, YB_RGB565};
+    rng_t rng = {97};
+    int count[3] = {0};
+    for (int round = 0; round < 2000; round++) {
+        yb_view_t view;
+        next_view(&rng, round, &view);
+        if (rng_one_in(&rng, 2))
+            view.look_q8[2] = view.eye_q8[2];
+        yb_frame_begin(&frame, &map, &view, &screen);
+        for (int t = 0; t < map.triangle_count; t++) {
+            const int how = check_open(&frame.view, t);
+            if (how >= 0)
+                count[how]++;
+        }
+    }
+    print_message("open: a quarter %d, some %d, all %d\n", count[0], count[1], count[2]);
+    for (int i = 0; i < 3; i++)
+        assert_true(count[i] > 2000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_comes_after_its_hiders),
         cmocka_unit_test(the_nearest_is_drawn),
         cmocka_unit_test(circles_are_seen_in_two_parts),
+        cmocka_unit_test(triangles_are_open_as_they_are_turned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -113,17 +113,17 @@ static int64_t twice_area(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_
  */
 static void random_mesh(mesh_t *mesh, rng_t *rng, int splits)
 {
-    static const yb_spot_t frame[4] = {{-WIDTH * 16, -HEIGHT * 16, 100, 0, 0},
-                                       {2 * WIDTH * 16, -HEIGHT * 16, 100, 0, 0},
-                                       {2 * WIDTH * 16, 2 * HEIGHT * 16, 100, 0, 0},
-                                       {-WIDTH * 16, 2 * HEIGHT * 16, 100, 0, 0}};
+    static const yb_spot_t frame[4] = {{-WIDTH * 16, -HEIGHT * 16, 100, 0},
+                                       {2 * WIDTH * 16, -HEIGHT * 16, 100, 0},
+                                       {2 * WIDTH * 16, 2 * HEIGHT * 16, 100, 0},
+                                       {-WIDTH * 16, 2 * HEIGHT * 16, 100, 0}};
     memcpy(mesh->point, frame, sizeof frame);
     mesh->points = 4;
     const int start[2][3] = {{0, 2, 1}, {0, 3, 2}};
     memcpy(mesh->triangle, start, sizeof start);
     mesh->triangles = 2;
     for (int i = 0; i < splits && mesh->triangles + 2 <= MOST; i++) {
-        yb_spot_t p = {rng_range(rng, 0, WIDTH * 16), rng_range(rng, 0, HEIGHT * 16), 100, 0, 0};
+        yb_spot_t p = {rng_range(rng, 0, WIDTH * 16), rng_range(rng, 0, HEIGHT * 16), 100, 0};
         if (rng_one_in(rng, 2)) { /* a pixel's centre */
             p.x_q4 = p.x_q4 / 16 * 16 + 8;
             p.y_q4 = p.y_q4 / 16 * 16 + 8;
@@ -216,10 +216,10 @@ static void bands_are_parts_of_the_whole(void **state)
 static void back_faces_and_flat_ones_draw_nothing(void **state)
 {
     (void)state;
-    static const yb_spot_t back[3] = {{0, 0, 9, 0, 0}, {500, 0, 9, 0, 0}, {0, 500, 9, 0, 0}};
-    static const yb_spot_t front[3] = {{0, 0, 9, 0, 0}, {0, 500, 9, 0, 0}, {500, 0, 9, 0, 0}};
-    static const yb_spot_t flat[3] = {{0, 0, 9, 0, 0}, {100, 100, 9, 0, 0}, {500, 500, 9, 0, 0}};
-    static const yb_spot_t away[3] = {{-500, 0, 9, 0, 0}, {-500, 500, 9, 0, 0}, {-100, 0, 9, 0, 0}};
+    static const yb_spot_t back[3] = {{0, 0, 9, 0}, {500, 0, 9, 0}, {0, 500, 9, 0}};
+    static const yb_spot_t front[3] = {{0, 0, 9, 0}, {0, 500, 9, 0}, {500, 0, 9, 0}};
+    static const yb_spot_t flat[3] = {{0, 0, 9, 0}, {100, 100, 9, 0}, {500, 500, 9, 0}};
+    static const yb_spot_t away[3] = {{-500, 0, 9, 0}, {-500, 500, 9, 0}, {-100, 0, 9, 0}};
     page_t page;
     open_page(&page, YB_RGB565, 0, HEIGHT);
     assert_false(draw(&page.raster, back, 7));
@@ -236,7 +236,7 @@ static void back_faces_and_flat_ones_draw_nothing(void **state)
 static void edges_through_centres(void **state)
 {
     (void)state;
-    static const yb_spot_t upper[3] = {{8, 8, 9, 0, 0}, {8, 72, 9, 0, 0}, {72, 8, 9, 0, 0}};
+    static const yb_spot_t upper[3] = {{8, 8, 9, 0}, {8, 72, 9, 0}, {72, 8, 9, 0}};
     page_t page;
     open_page(&page, YB_GREY4, 0, HEIGHT);
     assert_true(draw(&page.raster, upper, 7));
@@ -254,8 +254,8 @@ static void sides_through_centres(void **state)
         for (int high = 1; high < 15; high++) {
             const int x = 8 + 16 * wide;
             const int y = 8 + 16 * high;
-            const yb_spot_t right[3] = {{x, 8, 9, 0, 0}, {8, y, 9, 0, 0}, {x, y, 9, 0, 0}};
-            const yb_spot_t left[3] = {{8, 8, 9, 0, 0}, {8, y, 9, 0, 0}, {x, y, 9, 0, 0}};
+            const yb_spot_t right[3] = {{x, 8, 9, 0}, {8, y, 9, 0}, {x, y, 9, 0}};
+            const yb_spot_t left[3] = {{8, 8, 9, 0}, {8, y, 9, 0}, {x, y, 9, 0}};
             page_t page;
             open_page(&page, YB_GREY4, 0, HEIGHT);
             assert_true(draw(&page.raster, right, 7));
@@ -379,9 +379,8 @@ static void the_first_stays(void **state)
             const int y = rng_range(&rng, 0, HEIGHT * 16 - size / 2);
             do {
                 for (int k = 0; k < 3; k++)
-                    corner[i][k] =
-                        (yb_spot_t){(yb_side_t)rng_range(&rng, x, x + size),
-                                    (yb_side_t)rng_range(&rng, y, y + size / 2), 100, 0, 0};
+                    corner[i][k] = (yb_spot_t){(yb_side_t)rng_range(&rng, x, x + size),
+                                               (yb_side_t)rng_range(&rng, y, y + size / 2), 100, 0};
             } while (twice_area(&corner[i][0], &corner[i][1], &corner[i][2]) >= 0);
             open_page(&page, formats[round % 3], 0, HEIGHT);
             (void)draw(&page.raster, corner[i], (uint16_t)(i + 1));
@@ -502,8 +501,7 @@ static void lines_lie_where_they_should(void **state)
 static void shades_become_dots(void **state)
 {
     (void)state;
-    static const yb_spot_t all[3] = {
-        {-900, -900, 9, 0, 0}, {-900, 3000, 9, 0, 0}, {3000, -900, 9, 0, 0}};
+    static const yb_spot_t all[3] = {{-900, -900, 9, 0}, {-900, 3000, 9, 0}, {3000, -900, 9, 0}};
     uint16_t before[WIDTH * HEIGHT] = {0};
     for (uint16_t shade = 1; shade < 16; shade++) {
         page_t page;

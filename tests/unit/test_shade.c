@@ -60,7 +60,7 @@ static void random_triangle(rng_t *rng, yb_point_t p[3], int least_log2, int mos
             p[i].slope = (uint32_t)(rng_range(rng, -YB_MAX_SLOPE_Q11, YB_MAX_SLOPE_Q11) + 32768)
                              << 16 |
                          (uint32_t)(rng_range(rng, -YB_MAX_SLOPE_Q11, YB_MAX_SLOPE_Q11) + 32768);
-            p[i].spot = (yb_spot_t){100, 100, 5000, 0, 0};
+            p[i].spot = (yb_spot_t){100, 100, 5000, 0};
         }
         const int32_t area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
         if (area > size * size / 16)

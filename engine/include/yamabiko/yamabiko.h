@@ -450,7 +450,7 @@ typedef struct {
     uint16_t exaggerate_q8; /* vertical scale: 256 is true */
     uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than
                              * about a sixteenth of the screen's width, and where the map is near
-                             * up to four pixels more. What is turned away is split less. */
+                             * up to 7 pixels more. What is turned away is split less. */
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool lamp; /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
     int32_t lamp_q8[3];
@@ -566,8 +566,7 @@ typedef int32_t yb_side_t;
 typedef struct {
     yb_side_t x_q4, y_q4;
     uint16_t near;
-    uint8_t out;  /* on which sides it is out of the band: see refine.h */
-    uint8_t open; /* of a vertex: how open to the eye the ground there is, see camera.h */
+    uint8_t out; /* on which sides it is out of the band: see refine.h */
 } yb_spot_t;
 
 /* A vertex on the screen, as yb_spot_t in fewer bytes. */
@@ -646,10 +645,11 @@ typedef struct {
     int32_t eye_x_q6, eye_y_q6; /* what triangles are ordered by */
     yb_view_t view;
     uint8_t order_for;    /* which rows: see order.c */
+    uint8_t open_turn;    /* what counts of how far a triangle is turned to the eye */
     bool binned;          /* bins are found: a band of all rows needs none */
     yb_triangle_t *order; /* of the base triangles: behind what is seen */
     uint8_t *bins; /* of a base triangle: first and last bin, a nibble each; behind the order */
-    uint8_t *open; /* of a vertex, as in its spot; behind the bins */
+    uint8_t *open; /* of a base triangle: how far it is turned to the eye; behind the bins */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
     yb_point_t root[3];
     yb_level_t level[YB_MAX_LEVELS];
@@ -657,13 +657,13 @@ typedef struct {
     yb_seen_t seen[YB_MAX_VERTICES];
     yb_triangle_t order_memory[YB_MAX_TRIANGLES];
     uint8_t bin_memory[YB_MAX_TRIANGLES];
-    uint8_t open_memory[YB_MAX_VERTICES];
+    uint8_t open_memory[YB_MAX_TRIANGLES];
 } yb_frame_t;
 
 /* One piece of memory for all: `bytes` bytes, a loaded map at the beginning. In what that does not
  * need this places a frame of it, and a band from the screen's top with as many rows as there is
  * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
- * 100 vertices takes 6.6 KB with its frame, each vertex more or less 39 bytes. Its triangles are
+ * 100 vertices takes 6.6 KB with its frame, each vertex more or less 40 bytes. Its triangles are
  * moved (yb_map_triangle); the frame is shorter than its type, and not to be copied. The caller may
  * lower band->rows. NULL: there is not room for one row, as there always is in sizeof(yb_map_t) +
  * sizeof(yb_frame_t), two pointers, and yb_band_row_bytes. Frame and band are the caller's until
