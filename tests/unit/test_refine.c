@@ -34,7 +34,7 @@ static void begin_random_frame(rng_t *rng, int round)
 
 static void check_edge(const yb_point_t *a, const yb_point_t *b)
 {
-    const int32_t open = ORDER_OPEN / (1 + (int32_t)(a->place + b->place) % 3);
+    const int32_t open = ORDER_OPEN / (1 + (int32_t)((a->place + b->place) % 3));
     yb_edge_t there = refine_edge(&frame, a, b, open);
     assert_true(there == refine_edge(&frame, b, a, open));
     if (!relief_splits(relief_dx(a->place, b->place), relief_dy(a->place, b->place))) {
