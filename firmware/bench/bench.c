@@ -58,8 +58,8 @@ typedef struct {
 
 /* All of it, but for what the stack takes at most. */
 enum {
-    BYTES_12K = 12 * 1024 - 896,
-    BYTES_32K = 32 * 1024 - 896
+    BYTES_12K = 12 * 1024 - 960,
+    BYTES_32K = 32 * 1024 - 960
 };
 
 static void with_shadows(yb_view_t *view)
