@@ -52,25 +52,6 @@ void order_root(const yb_frame_t *frame, const yb_index_t *corner, yb_part_t *pa
     part->eye[2] = left[0] >> 1;
 }
 
-/* Does a vertex lie where lines of sight ahead, or back, go? Products are within 2^19 * 2^12. */
-static bool lies_there(const yb_frame_t *frame, int which, yb_index_t i)
-{
-    const yb_vertex_t *const v = &frame->map->vertex[i];
-    /* The way that the camera looks, in plan, also if it looks straight down. */
-    const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
-    const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
-    const int32_t ahead = (v->x_q8 / 4 - frame->eye_x_q6) * x + (v->y_q8 / 4 - frame->eye_y_q6) * y;
-    return which == ORDER_AHEAD ? ahead > 0 : ahead < 0;
-}
-
-/* What is known of a triangle while it is sorted: which of those beside it it may hide, a bit for
- * each edge, and how many may hide it.
- */
-enum {
-    HIDES = 7,
-    HIDDEN = 8
-};
-
 /* How far a place without a spot is from the eye, in the view's unit: within 1.375 * 2^16. */
 APART int32_t distance_of(const yb_frame_t *frame, const yb_vertex_t *v, int32_t rise)
 {
@@ -92,7 +73,7 @@ APART uint8_t open_of(const yb_frame_t *frame, const yb_index_t *corner, const i
     int32_t area = 0;
     int32_t above = 0;
     int32_t nearest = INT32_MAX;
-    uint32_t near = 1;
+    uint32_t near = 1; /* of a corner with a spot it is more */
     for (int i = 0; i < 3; i++) {
         const yb_index_t opposite = corner[i == 0 ? 2 : i - 1];
         const yb_vertex_t *v = &frame->map->vertex[opposite];
@@ -115,6 +96,25 @@ APART uint8_t open_of(const yb_frame_t *frame, const yb_index_t *corner, const i
         return ORDER_OPEN;
     return (uint8_t)fix_max(turned / ((whole >> (4 + ORDER_OPEN_BITS)) + 1), ORDER_OPEN / 4);
 }
+
+/* Does a vertex lie where lines of sight ahead, or back, go? Products are within 2^19 * 2^12. */
+static bool lies_there(const yb_frame_t *frame, int which, yb_index_t i)
+{
+    const yb_vertex_t *const v = &frame->map->vertex[i];
+    /* The way that the camera looks, in plan, also if it looks straight down. */
+    const int32_t x = (frame->depth_x * frame->up_z - frame->up_x * frame->depth_z) >> 16;
+    const int32_t y = (frame->depth_y * frame->up_z - frame->up_y * frame->depth_z) >> 16;
+    const int32_t ahead = (v->x_q8 / 4 - frame->eye_x_q6) * x + (v->y_q8 / 4 - frame->eye_y_q6) * y;
+    return which == ORDER_AHEAD ? ahead > 0 : ahead < 0;
+}
+
+/* What is known of a triangle while it is sorted: which of those beside it it may hide, a bit for
+ * each edge, and how many may hide it.
+ */
+enum {
+    HIDES = 7,
+    HIDDEN = 8
+};
 
 static inline unsigned hides_of(const yb_frame_t *frame, int which, const yb_index_t *corner,
                                 const int32_t left[3], yb_across_t across)
