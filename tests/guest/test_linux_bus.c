@@ -321,13 +321,17 @@ static void signals_shorten_no_pause(void **state)
     yb_linux_bus_close(bus);
 }
 
-/* Sends until that fails; 0: it said that the chip is gone, and goes on saying so. */
-static int draw_until_it_fails(const char *sentence)
+/* Sends until that fails, and tells when something is sent; 0: it said that the chip is gone, and
+ * goes on saying so.
+ */
+static int draw_until_it_fails(const char *sentence, int telling)
 {
     static const uint8_t bytes[100];
     yb_linux_bus_t *bus = open_bus(&good, &yb_panel_ssd0323);
     const yb_panel_bus_t *calls = yb_linux_bus_panel(bus);
 
+    if (calls->data(calls->context, bytes, sizeof bytes) && write(telling, bytes, 1) != 1)
+        return 5;
     while (calls->data(calls->context, bytes, sizeof bytes))
         ;
     fprintf(stderr, "it says: %s\n", yb_linux_bus_error(bus));
@@ -344,14 +348,20 @@ static void vanishes_while_it_draws(void **state)
 {
     char sentence[YB_LINUX_ERROR_BYTES];
     int status = 0;
+    int told[2];
+    char byte;
 
     (void)state;
+    assert_int_equal(pipe(told), 0);
     snprintf(sentence, sizeof sentence,
              "the display could not be reached: %s is gone; was it unplugged?", name);
     fflush(NULL);
     const pid_t child = fork();
     if (child == 0)
-        _exit(draw_until_it_fails(sentence));
+        _exit(draw_until_it_fails(sentence, told[1]));
+    close(told[1]);
+    assert_int_equal(read(told[0], &byte, 1), 1); /* however slow the machine is */
+    close(told[0]);
     usleep(100000);
     assert_int_equal(waitpid(child, &status, WNOHANG), 0);
     yb_sim_chip_unplug(&chip);
