@@ -40,7 +40,7 @@ static int32_t rise_farther_out(const yb_load_t *load, int region, int32_t h)
             continue;
         int32_t down = height_at(load, origin_of(load, e)) - h;
         /* 0 for -1, then 1, -2, 2 …; of none the largest. */
-        uint32_t size = ((uint32_t)down << 1 ^ (uint32_t)(down >> 31)) - 1;
+        uint32_t size = ((uint32_t)down << 1 ^ (0 - (uint32_t)(down < 0))) - 1;
         if (size < least) {
             rise = -down;
             least = size;
