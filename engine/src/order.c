@@ -142,7 +142,8 @@ static bool sort(yb_frame_t *frame, int which)
     for (yb_triangle_t t = 0; t < count; t++, corner += 3) {
         int32_t left[3];
         find_left(frame, corner, left);
-        frame->open[t] = open_of(frame, corner, left);
+        if (which == ORDER_ALL) /* it is the same for all rows */
+            frame->open[t] = open_of(frame, corner, left);
         const unsigned found = hides_of(frame, which, corner, left, across[t]);
         known[t] = (uint8_t)found;
         if (found < HIDDEN)
