@@ -11,8 +11,8 @@ enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
     LEAST_NEAR = 64,  /* in the view's own unit: what rounding does must stay small beside it */
     LEAST_ZOOM_Q12 = 1024,
-    NEARER_Q4 = 118, /* what edges near the eye may be longer */
-    OPEN_TURN = 2    /* triangles are open where they are seen from 30 degrees or more: a half */
+    NEARER_Q4 = 90, /* what edges near the eye may be longer */
+    OPEN_TURN = 2   /* triangles are open where they are seen from 30 degrees or more: a half */
 };
 
 /* --- Views ------------------------------------------------------------------------------------ */

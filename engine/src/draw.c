@@ -2,6 +2,7 @@
 #include "clip.h"
 #include "fix.h"
 #include "mesh.h"
+#include "order.h"
 #include "refine.h"
 #include "shade.h"
 
@@ -157,8 +158,7 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
     const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t root;
     yb_part_t *part = &root;
-    if (!refine_root(frame, walk->view, triangle, part, false))
-        return;
+    refine_root(frame, walk->view, triangle, part);
     for (;;) {
         for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
             if (refine_part_misses(frame, walk->view, part))
@@ -187,8 +187,10 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
     const walk_t walk = {frame, view, raster};
     const yb_triangle_t count = frame->map->triangle_count;
     if (!frame->binned) {
-        for (yb_triangle_t i = 0; i < count; i++)
-            draw_root(&walk, frame->order[i]);
+        for (yb_triangle_t i = 0; i < count; i++) {
+            if (order_shows(frame, frame->order[i]))
+                draw_root(&walk, frame->order[i]);
+        }
         return;
     }
     const int first_bin = refine_bin_of(frame, raster->first_row);
@@ -248,8 +250,7 @@ static uint32_t count_root(yb_frame_t *frame, const refine_view_t *view, yb_tria
     yb_part_t root;
     yb_part_t *part = &root;
     uint32_t leaves = 0;
-    if (!refine_root(frame, view, triangle, part, false))
-        return 0;
+    refine_root(frame, view, triangle, part);
     for (;;) {
         const yb_edge_t edges = refine_edges(part);
         const bool seen = edges < REFINE_ONCE || !refine_part_misses(frame, view, part);
@@ -271,6 +272,6 @@ uint32_t refine_count(yb_frame_t *frame, const refine_view_t *whole, uint64_t en
 {
     uint32_t leaves = 0;
     for (yb_triangle_t t = 0; t < frame->map->triangle_count && leaves <= enough; t++)
-        leaves += count_root(frame, whole, t, enough);
+        leaves += order_shows(frame, t) ? count_root(frame, whole, t, enough) : 0;
     return leaves;
 }

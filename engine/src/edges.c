@@ -250,20 +250,16 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 
 /* --- Base triangles --------------------------------------------------------------------------- */
 
-bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part, bool all)
+void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part)
 {
     const yb_index_t *corner = relief_triangle(frame->map, triangle);
     const yb_vertex_t *v[3];
-    int beyond = all ? 0 : REFINE_NOWHERE;
     for (int i = 0; i < 3; i++) {
         v[i] = &frame->map->vertex[corner[i]];
         refine_corner(frame, view, corner[i], &frame->root[i]);
         part->point[i] = &frame->root[i];
-        beyond &= frame->root[i].spot.out;
     }
-    if (beyond != 0 && refine_root_misses(frame, view, part->point))
-        return false;
     const yb_across_t across = yb_map_across(frame->map)[triangle];
     const int32_t open = frame->open[triangle];
     part->edge[0] =
@@ -274,5 +270,4 @@ bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t tri
                                 order_open(frame, open, across >> 2 * ENTRY_BITS));
     part->bulge = refine_splits(part) ? refine_bulge(frame->map, v) : 0;
     order_root(frame, corner, part);
-    return true;
 }

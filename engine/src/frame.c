@@ -129,6 +129,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     frame->row_shift = (uint8_t)(fix_log2_floor((screen->height - (uint32_t)1) | 8) - 3);
     refine_view_t whole;
     refine_see(frame, 0, screen->height, &whole);
+    refine_see_vertices(frame, &whole);
     walls_begin(frame);
     order_begin(frame);
     frame->binned = false;

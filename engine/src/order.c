@@ -3,6 +3,7 @@
 #include "camera.h"
 #include "fix.h"
 #include "mesh.h"
+#include "refine.h"
 #include "relief.h"
 
 /* How far the eye is to the left of the line from a place to another, times its length: below 0, to
@@ -67,6 +68,8 @@ APART int32_t distance_of(const yb_frame_t *frame, const yb_vertex_t *v, int32_t
  */
 APART uint8_t open_of(const yb_frame_t *frame, const yb_index_t *corner, const int32_t left[3])
 {
+    if (refine_out_of_sight(frame, corner))
+        return ORDER_OUT;
     const int shift =
         fix_log2_floor(fix_size(left[0]) | fix_size(left[1]) | fix_size(left[2]) | 1 << 11) - 11;
     const uint32_t scale = (uint32_t)frame->near << 15;

@@ -33,12 +33,19 @@ enum {
 /* How far a base triangle is open to the eye (frame->open): so much of the length of its edges, or
  * of those of the one beside it, if that is more, counts for whether they are split. All of it, but
  * for a triangle that is seen nearly along its plane, and a quarter of it for one that is seen from
- * behind, and mostly hidden.
+ * behind, and mostly hidden. ORDER_OUT: it is out of sight; to the one beside it, it is all open.
  */
 enum {
     ORDER_OPEN_BITS = 7,
-    ORDER_OPEN = 1 << ORDER_OPEN_BITS
+    ORDER_OPEN = 1 << ORDER_OPEN_BITS,
+    ORDER_OUT
 };
+
+/* May anything of a base triangle be seen? */
+static inline bool order_shows(const yb_frame_t *frame, yb_triangle_t triangle)
+{
+    return frame->open[triangle] != ORDER_OUT;
+}
 
 /* An edge of a triangle that is so far open, by the entry across it. */
 static inline int32_t order_open(const yb_frame_t *frame, int32_t open, yb_across_t across)
@@ -47,8 +54,8 @@ static inline int32_t order_open(const yb_frame_t *frame, int32_t open, yb_acros
     return open == ORDER_OPEN || beside == NO_TRIANGLE ? open : fix_max(open, frame->open[beside]);
 }
 
-/* Of a frame whose camera has begun: finds the order of all rows, if there is one, and how far its
- * triangles are open. The eye is taken as where it is to 1/64 step.
+/* Of a frame after refine_see_vertices: finds the order of all rows, if there is one, and how far
+ * its triangles are open. The eye is taken as where it is to 1/64 step.
  */
 void order_begin(yb_frame_t *frame);
 

@@ -1,5 +1,6 @@
 #include "camera.h"
 #include "fix.h"
+#include "order.h"
 #include "refine.h"
 #include "relief.h"
 
@@ -37,40 +38,41 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
     }
 }
 
-/* Points are inside a plane where slope * depth plus or minus right or up is `near` or more; depth
- * < 2^18 and |slope| <= 2 * 2^8 make 2^27. May some that move by `stray` come in, when `most` is
- * the greatest of their sums? stray < 2^19 and lift < 2^14: within 2^29 after the shift by 4.
+/* Is a point beyond a plane by more than it, or anything that moves by `stray` from it, may come
+ * back? Points are inside where slope * depth plus or minus right or up is `near` or more; depth
+ * < 2^18 and |slope| <= 2 * 2^8 make 2^27. stray < 2^19 and lift < 2^14: within 2^29 after the
+ * shift by 4.
  */
-static inline bool come_in(const refine_plane_t *plane, int32_t most, int32_t stray)
+static inline unsigned is_beyond(const refine_plane_t *plane, int32_t inside, int32_t stray)
 {
-    return most - plane->near >= -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12);
+    return inside - plane->near < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12);
+}
+
+/* The planes for which that is so, a bit each. */
+APART unsigned beyond_which(const yb_frame_t *frame, const refine_view_t *view, uint32_t place,
+                            int32_t top_q8, int32_t stray)
+{
+    const refine_plane_t *plane = view->plane;
+    camera_point_t at;
+    camera_view(frame, place, top_q8, &at);
+    const int32_t aside = at.depth * plane[REFINE_LEFTMOST].slope_q8 >> 8; /* on both sides */
+    const int32_t above = at.depth * plane[REFINE_TOP].slope_q8 >> 8;
+    const int32_t below = at.depth * plane[REFINE_BOTTOM].slope_q8 >> 8;
+    return is_beyond(&plane[REFINE_NEAR], at.depth, stray) |
+           is_beyond(&plane[REFINE_LEFTMOST], aside + at.right, stray) << REFINE_LEFTMOST |
+           is_beyond(&plane[REFINE_RIGHTMOST], aside - at.right, stray) << REFINE_RIGHTMOST |
+           is_beyond(&plane[REFINE_TOP], above - at.up, stray) << REFINE_TOP |
+           is_beyond(&plane[REFINE_BOTTOM], below + at.up, stray) << REFINE_BOTTOM;
 }
 
 /* For points without spots. */
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int32_t stray)
 {
-    const refine_plane_t *plane = view->plane;
-    int32_t near = INT32_MIN;
-    int32_t left = INT32_MIN;
-    int32_t right = INT32_MIN;
-    int32_t top = INT32_MIN;
-    int32_t bottom = INT32_MIN;
-    for (int k = 0; k < count; k++) {
-        camera_point_t at;
-        camera_view(frame, p[k]->place, p[k]->top_q8, &at);
-        const int32_t aside = at.depth * plane[REFINE_LEFTMOST].slope_q8 >> 8; /* on both sides */
-        near = fix_max(near, at.depth);
-        left = fix_max(left, aside + at.right);
-        right = fix_max(right, aside - at.right);
-        top = fix_max(top, (at.depth * plane[REFINE_TOP].slope_q8 >> 8) - at.up);
-        bottom = fix_max(bottom, (at.depth * plane[REFINE_BOTTOM].slope_q8 >> 8) + at.up);
-    }
-    return !come_in(&plane[REFINE_NEAR], near, stray) ||
-           !come_in(&plane[REFINE_LEFTMOST], left, stray) ||
-           !come_in(&plane[REFINE_RIGHTMOST], right, stray) ||
-           !come_in(&plane[REFINE_TOP], top, stray) ||
-           !come_in(&plane[REFINE_BOTTOM], bottom, stray);
+    unsigned beyond = ~0u;
+    while (beyond != 0 && count-- > 0)
+        beyond &= beyond_which(frame, view, p[count]->place, p[count]->top_q8, stray);
+    return beyond != 0;
 }
 
 /* The box on the screen that holds some points and what lies between them, 1/16 pixel. */
@@ -215,13 +217,22 @@ int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
 }
 
 /* The map's bound is by other midpoints. Twice that is more than any point moves: three times the
- * bulge of an edge, four times what noise does; and that is below 2^19.
+ * bulge of an edge, four times what noise does; and that is below 2^19. Or all the ground that is
+ * above the water sinks to it.
  */
-bool refine_root_misses(const yb_frame_t *frame, const refine_view_t *view,
-                        const yb_point_t *const p[3])
+void refine_see_vertices(yb_frame_t *frame, const refine_view_t *whole)
 {
-    const int32_t stray = fix_min(2 * frame->map->stray_q8, (int32_t)1 << 19);
-    return misses_planes(frame, view, p, 3, stray_in_water(frame, p, stray));
+    const yb_map_t *map = frame->map;
+    const int32_t water = frame->view.water_q8;
+    int32_t stray = fix_min(2 * map->stray_q8, (int32_t)1 << 19);
+    if (map->low_q8 < water)
+        stray = fix_max(stray, map->high_q8 - water);
+    for (int i = 0; i < map->vertex_count; i++) {
+        const yb_vertex_t *v = &map->vertex[i];
+        if (frame->seen[i].near == 0)
+            frame->seen[i].x_q4 = (yb_side_t)beyond_which(frame, whole, relief_place(v),
+                                                          fix_max(v->z_q8, water), stray);
+    }
 }
 
 /* find_spare, of a triangle all of whose corners, and walls' feet, have spots. Feet are where they
@@ -401,9 +412,11 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
     for (int i = 0; i < 3; i++)
         v[i] = &frame->map->vertex[corner[i]];
     box_t box;
-    const bool missed = COPIES && !walls && find_seen_box(frame, corner, v, &box)
-                            ? box_misses(whole, &box)
-                            : root_misses(frame, whole, corner, v, walls, &box);
+    bool missed = !walls && !order_shows(frame, triangle);
+    if (!missed)
+        missed = COPIES && !walls && find_seen_box(frame, corner, v, &box)
+                     ? box_misses(whole, &box)
+                     : root_misses(frame, whole, corner, v, walls, &box);
     const int32_t last = frame->screen.height - 1;
     int bins = (int)(last >> frame->row_shift) << 4;
     if (!missed) { /* from the first row whose pixels' centres it may cover to the last */

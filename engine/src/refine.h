@@ -101,11 +101,9 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
                    yb_point_t *point);
 
-/* A base triangle, with its corners in frame->root. False: it is out of sight, as most are that lie
- * behind the eye, and no more is known of it; `all`: it is not asked whether it is.
- */
-bool refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part, bool all);
+/* A base triangle, with its corners in frame->root. */
+void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
+                 yb_part_t *part);
 
 /* --- What is in sight: outside.c -------------------------------------------------------------- */
 
@@ -129,11 +127,20 @@ static inline bool refine_misses(const yb_frame_t *frame, const refine_view_t *v
 /* Height that a point of a triangle may gain or lose until it is drawn, by refinement and water. */
 int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part);
 
-/* Is nothing that a base triangle, not all of whose corners have spots, can become in the view? By
- * a bound of the map: its edges need not be known.
+/* Of a frame whose camera has begun: notes of each vertex without a spot, in seen[].x_q4, the
+ * planes of the whole picture that it is beyond by more than anything there can come back, a bit
+ * each.
  */
-bool refine_root_misses(const yb_frame_t *frame, const refine_view_t *view,
-                        const yb_point_t *const p[3]);
+void refine_see_vertices(yb_frame_t *frame, const refine_view_t *whole);
+
+/* Is all of a base triangle beyond one of them, as most are that lie behind the eye? */
+static inline bool refine_out_of_sight(const yb_frame_t *frame, const yb_index_t *corner)
+{
+    const yb_seen_t *const a = &frame->seen[corner[0]];
+    const yb_seen_t *const b = &frame->seen[corner[1]];
+    const yb_seen_t *const c = &frame->seen[corner[2]];
+    return a->near == 0 && b->near == 0 && c->near == 0 && (a->x_q4 & b->x_q4 & c->x_q4) != 0;
+}
 
 /* Is nothing that a triangle to be split can become in the view? Most lie in it as they are. */
 bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,

@@ -12,13 +12,9 @@
  */
 #include "board.h"
 #include "report.h"
+#include "settings.h"
 #include "standard_views.h"
 #include "yamabiko/yamabiko.h"
-
-/* One piece of memory for all: the largest frame measured is the largest that fits. */
-#ifndef BENCH_BYTES
-#error "BENCH_BYTES: the board's CMake file gives it"
-#endif
 
 enum {
     SHADOW_SIDE = 64
@@ -26,6 +22,7 @@ enum {
 
 static uint8_t lit[YB_SHADOW_BYTES(SHADOW_SIDE)];
 static yb_shadow_t shadow = {.side = SHADOW_SIDE, .lit = lit};
+/* The largest frame measured is the largest that fits. */
 static union {
     struct {
         yb_map_t map;
@@ -55,12 +52,6 @@ typedef struct {
 } setting_t;
 
 #define ORBITS (YB_ORBIT_315 + 1)
-
-/* All of it, but for what the stack takes at most. */
-enum {
-    BYTES_12K = 12 * 1024 - 960,
-    BYTES_32K = 32 * 1024 - 960
-};
 
 static void with_shadows(yb_view_t *view)
 {

@@ -325,7 +325,7 @@ static void edges_near_the_eye_are_longer(void **state)
     assert_int_equal(frame.thin_q4, 98);
     yb_view_walk(&view, &map, 30000, 30000, 500, 0, 0);
     yb_frame_begin(&frame, &map, &view, &screen);
-    assert_in_range(frame.thin_q4, 212, 216);
+    assert_in_range(frame.thin_q4, 185, 189);
     view.edge_q4 = 103;
     yb_frame_begin(&frame, &map, &view, &screen);
     assert_int_equal(frame.thin_q4, 103);

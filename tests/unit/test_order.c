@@ -339,6 +339,8 @@ static int check_open(const yb_view_t *view, int t)
         0.02 + frame.open_turn *
                    (highest * most / area / 500 + 16 * steep + 4 * (1 << frame.eye_shift)) /
                    nearest;
+    if (!order_shows(&frame, (yb_triangle_t)t))
+        return -1;
     const double open = frame.open[t] / (double)ORDER_OPEN;
     assert_true(open >= clamped(turned * (turned > 0 ? 0.92 : 1.08) - off, 0.25, 1) - 0.01);
     assert_true(open <= clamped(turned * (turned > 0 ? 1.08 : 0.92) + off, 0.25, 1) + 0.01);

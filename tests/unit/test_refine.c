@@ -71,7 +71,7 @@ static void edges_are_the_same_from_both_ends(void **state)
         (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             check_leaf(NULL, root.point);
         }
     }
@@ -86,7 +86,7 @@ static void midpoints_are_the_surfaces(void **state)
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
@@ -172,6 +172,7 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
     (void)state;
     rng_t rng = {62};
     bounds_t bounds = {.depth = 0};
+    int hidden = 0;
     for (int round = 0; round < 400; round++) {
         begin_random_frame(&rng, round);
         bounds.first_row = rng_range(&rng, 0, frame.screen.height - 1);
@@ -179,12 +180,17 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            (void)refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root, true);
+            refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root);
+            bounds.out[bounds.depth++] = !order_shows(&frame, (yb_triangle_t)t);
+            hidden += bounds.out[0];
             descend(&bounds, root);
+            bounds.depth--;
         }
     }
-    print_message("%.0f points of triangles outside\n", (double)bounds.outside);
+    print_message("%.0f points of triangles outside, %d base triangles out of sight\n",
+                  (double)bounds.outside, hidden);
     assert_true(bounds.outside > 10000);
+    assert_true(hidden > 1000);
 }
 
 /* The rows that a base triangle is binned to hold all rows whose pixels' centres it may cover: with
@@ -236,7 +242,7 @@ static void bins_hold_their_triangles(void **state)
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
             refine_bin(&frame, &whole, (yb_triangle_t)t);
-            (void)refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root, true);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
             check_bins(t, root);
         }
     }

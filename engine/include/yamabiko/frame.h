@@ -59,7 +59,7 @@ typedef struct {
     uint16_t exaggerate_q8; /* vertical scale: 256 is true */
     uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than
                              * about a sixteenth of the screen's width, and where the map is near
-                             * up to 7 pixels more. What is turned away is split less. */
+                             * up to 6 pixels more. What is turned away is split less. */
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool lamp; /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
     int32_t lamp_q8[3];
@@ -178,7 +178,7 @@ typedef struct {
     uint8_t out; /* on which sides it is out of the band: see refine.h */
 } yb_spot_t;
 
-/* A vertex on the screen, as yb_spot_t in fewer bytes. */
+/* A vertex on the screen, as yb_spot_t in fewer bytes; x_q4 of one without: see refine.h. */
 typedef struct {
     yb_side_t x_q4, y_q4;
     uint16_t near;
