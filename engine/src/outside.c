@@ -408,20 +408,21 @@ void refine_bin(yb_frame_t *frame, const refine_view_t *whole, yb_triangle_t tri
 {
     const yb_index_t *corner = relief_triangle(frame->map, triangle);
     const bool walls = walls_are_below(frame, triangle);
+    const int32_t last = frame->screen.height - 1;
+    frame->bins[triangle] = (uint8_t)(last >> frame->row_shift << 4);
+    if (!walls && !order_shows(frame, triangle))
+        return;
     const yb_vertex_t *v[3];
     for (int i = 0; i < 3; i++)
         v[i] = &frame->map->vertex[corner[i]];
     box_t box;
-    bool missed = !walls && !order_shows(frame, triangle);
-    if (!missed)
-        missed = COPIES && !walls && find_seen_box(frame, corner, v, &box)
-                     ? box_misses(whole, &box)
-                     : root_misses(frame, whole, corner, v, walls, &box);
-    const int32_t last = frame->screen.height - 1;
-    int bins = (int)(last >> frame->row_shift) << 4;
-    if (!missed) { /* from the first row whose pixels' centres it may cover to the last */
-        bins = (int)(fix_clamp(raster_pixel(box.top), 0, last) >> frame->row_shift << 4 |
-                     fix_clamp(raster_pixel(box.bottom - 16), 0, last) >> frame->row_shift);
-    }
-    frame->bins[triangle] = (uint8_t)bins;
+    const bool missed = COPIES && !walls && find_seen_box(frame, corner, v, &box)
+                            ? box_misses(whole, &box)
+                            : root_misses(frame, whole, corner, v, walls, &box);
+    if (missed)
+        return;
+    /* From the first row whose pixels' centres it may cover to the last. */
+    const int32_t first_bin = fix_clamp(raster_pixel(box.top), 0, last) >> frame->row_shift;
+    const int32_t last_bin = fix_clamp(raster_pixel(box.bottom - 16), 0, last) >> frame->row_shift;
+    frame->bins[triangle] = (uint8_t)(first_bin << 4 | last_bin);
 }
