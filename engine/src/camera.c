@@ -11,8 +11,10 @@ enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
     LEAST_NEAR = 64,  /* in the view's own unit: what rounding does must stay small beside it */
     LEAST_ZOOM_Q12 = 1024,
-    NEARER_Q4 = 90, /* what edges near the eye may be longer */
-    OPEN_TURN = 2   /* triangles are open where they are seen from 30 degrees or more: a half */
+    NEARER_Q4 = 70,  /* what edges near the eye may be longer … */
+    ROUGH_Q8 = 160,  /* … and by a sixteenth of the width more where noise moves a step so far */
+    STEP_CLASS = 28, /* of an edge of one step */
+    OPEN_TURN = 2    /* triangles are open where they are seen from 30 degrees or more: a half */
 };
 
 /* --- Views ------------------------------------------------------------------------------------ */
@@ -284,15 +286,18 @@ static int32_t foreshortening(const yb_frame_t *frame)
 /* About a sixteenth of the screen's width. A smaller screen wants a little less: more of its
  * triangles meet no pixel's centre. Made for as many on 128 and on 320 pixels, in a view of the
  * whole map, which covers half of the screen. The nearer the eye, the more of it is covered, and
- * the longer edges may be, so that a frame takes about as long.
+ * the longer edges may be, so that a frame takes about as long: above all on rough ground, for what
+ * noise may bring into view must be split to be told apart from what is out of sight.
  */
 static uint32_t usual_edge(const yb_frame_t *frame)
 {
     const int32_t width = frame->screen.width;
     const int32_t far = 3 * fix_max(frame->map->east_q8, frame->map->north_q8) >> 3;
     const int32_t near = fix_min(frame->near << frame->eye_shift, far);
-    return (uint32_t)(fix_max(86 * width / 96 - 16, (width + 1) >> 1) +
-                      NEARER_Q4 * (far - near) / far);
+    const int32_t noise = frame->map->detail ? frame->map->noise[STEP_CLASS] : 0;
+    const int32_t rough = fix_min(noise * frame->view.exaggerate_q8 >> 8, ROUGH_Q8);
+    const int32_t more = NEARER_Q4 + rough * width / ROUGH_Q8;
+    return (uint32_t)(fix_max(86 * width / 96 - 16, (width + 1) >> 1) + more * (far - near) / far);
 }
 
 /* An edge is split by its plan length, foreshortened in the direction of view. Where it is,

@@ -313,7 +313,25 @@ static void an_eye_keeps_off_the_ground(void **state)
     assert_int_equal(view.eye_q8[1], map.north_q8);
 }
 
-/* Where no length is asked for: from round the map a sixteenth of the width, near it more. */
+/* The longest edge of a map with so much noise, from on it. */
+static int32_t usual_edge_near(int gain)
+{
+    plan_t plan;
+    plan_init(&plan, 255, 255);
+    for (int k = 0; k < 4; k++)
+        plan.corner_height[k] = k < 2 ? 0 : 50;
+    plan.gain = gain;
+    load_plan(&plan);
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    yb_view_walk(&view, &map, 30000, 30000, 500, 0, 0);
+    yb_frame_begin(&frame, &map, &view, &screen);
+    return frame.thin_q4;
+}
+
+/* Where no length is asked for: from round the map a sixteenth of the width, near it more, and on
+ * rough ground up to a sixteenth more again.
+ */
 static void edges_near_the_eye_are_longer(void **state)
 {
     (void)state;
@@ -323,9 +341,17 @@ static void edges_near_the_eye_are_longer(void **state)
     yb_view_init(&view, &map);
     yb_frame_begin(&frame, &map, &view, &screen);
     assert_int_equal(frame.thin_q4, 98);
-    yb_view_walk(&view, &map, 30000, 30000, 500, 0, 0);
-    yb_frame_begin(&frame, &map, &view, &screen);
-    assert_in_range(frame.thin_q4, 185, 189);
+    assert_in_range(usual_edge_near(0), 98 + 66, 98 + 70);
+    assert_in_range(usual_edge_near(255), 98 + 66 + 122, 98 + 70 + 128);
+    int32_t last = usual_edge_near(0);
+    int longer = 0;
+    for (int gain = 1; gain < 32; gain++) {
+        const int32_t edge = usual_edge_near(gain);
+        assert_true(edge >= last);
+        longer += edge > last;
+        last = edge;
+    }
+    assert_true(longer > 4);
     view.edge_q4 = 103;
     yb_frame_begin(&frame, &map, &view, &screen);
     assert_int_equal(frame.thin_q4, 103);

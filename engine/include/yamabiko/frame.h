@@ -59,7 +59,8 @@ typedef struct {
     uint16_t exaggerate_q8; /* vertical scale: 256 is true */
     uint16_t edge_q4;       /* split edges longer than this on the screen, in 1/16 pixel; 0: than
                              * about a sixteenth of the screen's width, and where the map is near
-                             * up to 6 pixels more. What is turned away is split less. */
+                             * some pixels more, most where it is rough. What is turned away is
+                             * split less. */
     int16_t sun_q14[3];     /* unit vector towards the sun */
     bool lamp; /* instead of the sun a lamp shines from lamp_q8, placed as the eye is */
     int32_t lamp_q8[3];
