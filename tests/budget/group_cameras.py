@@ -12,14 +12,13 @@ def frames_of(run):
     """{setting: [(instructions of a frame, of its worst band)]}"""
     settings = {}
     for name, count in run.regions.items():
-        what, setting, number = (name.split() + ["", ""])[:3]
-        frames = settings.setdefault(setting, [])
+        what, *of = name.split()
         if what == "begin":
-            frames.append([count])
+            settings.setdefault(of[0], []).append([count])
         elif what == "band":
-            frames[int(number) // ROWS_IN_ALL].append(count)
+            settings[of[0]][int(of[1]) // ROWS_IN_ALL].append(count)
     return {setting: [(sum(parts), max(parts[1:])) for parts in frames]
-            for setting, frames in settings.items() if frames}
+            for setting, frames in settings.items()}
 
 
 def measure():

@@ -301,10 +301,13 @@ static double distance_to(const double way[3], uint16_t near)
 }
 
 /* A triangle is open by how high the eye is above its plane, against its nearest corner: within 8
- * %, and what the weights of its corners are rounded by. -1: it is too thin for that.
+ * %, and what the weights of its corners are rounded by. -1: it is too thin for that, or out of
+ * sight.
  */
 static int check_open(const yb_view_t *view, int t)
 {
+    if (!order_shows(&frame, (yb_triangle_t)t))
+        return -1;
     const yb_index_t *corner = yb_map_triangle(&map, (yb_triangle_t)t);
     double way[3][3];
     double nearest = (double)INFINITY;
@@ -339,8 +342,6 @@ static int check_open(const yb_view_t *view, int t)
         0.02 + frame.open_turn *
                    (highest * most / area / 500 + 16 * steep + 4 * (1 << frame.eye_shift)) /
                    nearest;
-    if (!order_shows(&frame, (yb_triangle_t)t))
-        return -1;
     const double open = frame.open[t] / (double)ORDER_OPEN;
     assert_true(open >= clamped(turned * (turned > 0 ? 0.92 : 1.08) - off, 0.25, 1) - 0.01);
     assert_true(open <= clamped(turned * (turned > 0 ? 1.08 : 0.92) + off, 0.25, 1) + 0.01);

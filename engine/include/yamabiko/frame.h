@@ -259,7 +259,7 @@ typedef struct {
     bool binned;          /* bins are found: a band of all rows needs none */
     yb_triangle_t *order; /* of the base triangles: behind what is seen */
     uint8_t *bins; /* of a base triangle: first and last bin, a nibble each; behind the order */
-    uint8_t *open; /* of a base triangle: how far it is turned to the eye; behind the bins */
+    uint8_t *open; /* of a base triangle: how far it is turned to the eye (order.h); behind bins */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
     yb_point_t root[3];
     yb_level_t level[YB_MAX_LEVELS];
