@@ -27,13 +27,19 @@ enum {
     ROWS_HALF = 2048
 };
 
+#if defined(__ARM_FEATURE_IDIV) || defined(__riscv_div)
+#define ROWS_DIVIDE 1
+#else
+#define ROWS_DIVIDE 0
+#endif
+
 /* How far right a side of a small triangle goes in a sixteenth of a row, within 2: what is off by
  * that in every sixteenth, up to 255 times, is off by less than ROWS_HALF. So processors may come
  * to it in their own ways, and to the same pixels. One that divides is asked to: one instruction.
  */
 static inline int32_t rows_small_slope(int32_t dx, int32_t dy)
 {
-#if defined(__ARM_FEATURE_IDIV) || defined(__riscv_div)
+#if ROWS_DIVIDE
     return dx * ((int32_t)1 << ROWS_FRACTION) / dy;
 #else
     /* The inverse is rounded down, so this is off by less than dx: what is left of dx goes round

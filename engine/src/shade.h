@@ -42,16 +42,16 @@ static inline bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[
     const uint32_t range = (uint32_t)(high - low);
     if (range >= (uint32_t)1 << 16)
         return false;
-    const bool shore = z + low < frame->view.water_q8;
+    if (z + low < frame->view.water_q8)
+        return z + high > frame->view.water_q8 && shade_lines(frame, p, shade, true, cut);
     /* A line is a pixel wide: half of it may lie in a triangle beside the one it runs through. That
      * is no more than a quarter of a triangle that has pixels. What is above the highest line below
      * the top is less than all. */
     const uint32_t span = range * frame->contour_inverse;
     const uint32_t top = (uint32_t)(z + high) * frame->contour_inverse + frame->contour_zero;
-    if (shore ? z + high <= frame->view.water_q8
-              : range < frame->contour_few && top + (span >> 2) > span + (span >> 1))
+    if (range < frame->contour_few && top + (span >> 2) > span + (span >> 1))
         return false;
-    return shade_lines(frame, p, shade, shore, cut);
+    return shade_lines(frame, p, shade, false, cut);
 }
 
 /* The pixel value of the wall below the edge ab of the frame, ground to its left. */
