@@ -31,6 +31,15 @@
 #define SELDOM static
 #endif
 
+/* Before a loop over the three corners of a triangle: it is written out, as the indices that it
+ * goes by would take more room than its copies.
+ */
+#if defined(__GNUC__) && !defined(__clang__)
+#define WRITTEN_OUT _Pragma("GCC unroll 3")
+#else
+#define WRITTEN_OUT
+#endif
+
 /* What holds for most triangles: code is laid out by it. */
 #if defined(__GNUC__)
 #define USUAL(condition) __builtin_expect((condition), 1)

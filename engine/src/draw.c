@@ -1,6 +1,7 @@
 /* Draws the base triangles of a frame as what refinement makes of them. */
 #include "clip.h"
 #include "fix.h"
+#include "kept.h"
 #include "mesh.h"
 #include "order.h"
 #include "refine.h"
@@ -155,15 +156,14 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
     yb_frame_t *frame = walk->frame;
     yb_level_t *top = frame->level;
     yb_level_t *from = top;
-    const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t root;
     yb_part_t *part = &root;
-    refine_root(frame, walk->view, triangle, part);
+    kept_root(frame, walk->view, triangle, part);
     for (;;) {
         for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
             if (refine_part_misses(frame, walk->view, part))
                 goto next;
-            if (top > last) {
+            if (!kept_has_room(frame, top)) {
                 frame->stats.depth_limited++;
                 break;
             }
@@ -195,6 +195,7 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
     }
     const int first_bin = refine_bin_of(frame, raster->first_row);
     const int last_bin = refine_bin_of(frame, raster->end_row - 1);
+    kept_begin(frame, raster->first_row, raster->end_row);
     for (yb_triangle_t i = 0; i < count; i++) {
         if (refine_touches(frame, frame->order[i], first_bin, last_bin))
             draw_root(&walk, frame->order[i]);
@@ -246,15 +247,15 @@ static uint32_t count_root(yb_frame_t *frame, const refine_view_t *view, yb_tria
 {
     yb_level_t *top = frame->level;
     yb_level_t *from = top;
-    const yb_level_t *last = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
     yb_part_t root;
     yb_part_t *part = &root;
     uint32_t leaves = 0;
-    refine_root(frame, view, triangle, part);
+    refine_root(frame, view, triangle, NULL, part);
     for (;;) {
         const yb_edge_t edges = refine_edges(part);
         const bool seen = edges < REFINE_ONCE || !refine_part_misses(frame, view, part);
-        if (seen && top <= last && (edges >= REFINE_AGAIN || refine_is_sliver(frame, part))) {
+        if (seen && (edges >= REFINE_AGAIN || refine_is_sliver(frame, part)) &&
+            kept_has_room(frame, top)) {
             from = top = refine_split(frame, view, part, top);
             continue;
         }

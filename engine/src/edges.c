@@ -251,23 +251,29 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 /* --- Base triangles --------------------------------------------------------------------------- */
 
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part)
+                 const yb_kept_t *known, yb_part_t *part)
 {
     const yb_index_t *corner = relief_triangle(frame->map, triangle);
     const yb_vertex_t *v[3];
+    WRITTEN_OUT
     for (int i = 0; i < 3; i++) {
         v[i] = &frame->map->vertex[corner[i]];
         refine_corner(frame, view, corner[i], &frame->root[i]);
         part->point[i] = &frame->root[i];
     }
-    const yb_across_t across = yb_map_across(frame->map)[triangle];
-    const int32_t open = frame->open[triangle];
-    part->edge[0] =
-        refine_edge(frame, &frame->root[0], &frame->root[1], order_open(frame, open, across));
-    part->edge[1] = refine_edge(frame, &frame->root[1], &frame->root[2],
-                                order_open(frame, open, across >> ENTRY_BITS));
-    part->edge[2] = refine_edge(frame, &frame->root[2], &frame->root[0],
-                                order_open(frame, open, across >> 2 * ENTRY_BITS));
-    part->bulge = refine_splits(part) ? refine_bulge(frame->map, v) : 0;
     order_root(frame, corner, part);
+    if (known != NULL) {
+        part->edge[0] = known->edge[0];
+        part->edge[1] = known->edge[1];
+        part->edge[2] = known->edge[2];
+        part->bulge = known->bulge;
+        return;
+    }
+    yb_across_t across = yb_map_across(frame->map)[triangle];
+    const int32_t open = frame->open[triangle];
+    WRITTEN_OUT
+    for (int i = 0; i < 3; i++, across >>= ENTRY_BITS)
+        part->edge[i] = refine_edge(frame, &frame->root[i], &frame->root[next3(i)],
+                                    order_open(frame, open, across));
+    part->bulge = refine_splits(part) ? refine_bulge(frame->map, v) : 0;
 }

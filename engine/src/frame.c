@@ -5,6 +5,7 @@
 #include "camera.h"
 #include "colour.h"
 #include "fix.h"
+#include "kept.h"
 #include "order.h"
 #include "pixels.h"
 #include "refine.h"
@@ -133,6 +134,7 @@ void yb_frame_begin(yb_frame_t *frame, const yb_map_t *map, const yb_view_t *vie
     walls_begin(frame);
     order_begin(frame);
     frame->binned = false;
+    kept_forget(frame);
     bound_leaves(frame, &whole);
 }
 
@@ -144,6 +146,7 @@ static void bin_all(yb_frame_t *frame)
     for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
         refine_bin(frame, &whole, t);
     frame->binned = true;
+    kept_forget(frame);
 }
 
 /* Draws rows, from the nearest triangle on. */

@@ -58,8 +58,7 @@ static long_side_t long_side(const yb_spot_t *from, const yb_spot_t *to, int32_t
     const int32_t dy = to->y_q4 - (int32_t)from->y_q4;
     const plane_wrap_t size = (twice_slope((uint32_t)fix_abs(dx), (uint32_t)dy) + 1) >> 1;
     const plane_wrap_t slope = dx < 0 ? 0 - size : size;
-    const plane_wrap_t start =
-        (plane_wrap_t)(plane_t)(from->x_q4 + (int32_t)8) << PLANE_FRACTION;
+    const plane_wrap_t start = (plane_wrap_t)(plane_t)(from->x_q4 + (int32_t)8) << PLANE_FRACTION;
     return (long_side_t){
         start - PLANE_HALF + slope * (plane_wrap_t)(y * 16 + 8 - from->y_q4),
         slope << 4,

@@ -101,9 +101,10 @@ void refine_middle(const yb_frame_t *frame, const refine_view_t *view, const yb_
 void refine_corner(const yb_frame_t *frame, const refine_view_t *view, yb_index_t i,
                    yb_point_t *point);
 
-/* A base triangle, with its corners in frame->root. */
+/* A base triangle, with its corners in frame->root; its edges and bulge by what is known, or NULL.
+ */
 void refine_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
-                 yb_part_t *part);
+                 const yb_kept_t *known, yb_part_t *part);
 
 /* --- What is in sight: outside.c -------------------------------------------------------------- */
 

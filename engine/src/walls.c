@@ -8,6 +8,7 @@
 #include "camera.h"
 #include "clip.h"
 #include "fix.h"
+#include "kept.h"
 #include "mesh.h"
 #include "refine.h"
 #include "relief.h"
@@ -103,8 +104,7 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     for (int i = 0;; i = 1) {
         for (;; i = 2) {
             wall_t wall = {part->point[next3(i)], part->point[i], &left, &right};
-            const bool splits =
-                refine_splits(part) && top <= &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
+            const bool splits = refine_splits(part) && kept_has_room(frame, top);
             camera_drop(frame, wall[1], frame->base_q8, &left);
             if ((splits || part == &root) && refine_misses(frame, view, wall, 4, stray))
                 break;

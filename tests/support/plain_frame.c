@@ -82,7 +82,7 @@ uint32_t plain_ordered(yb_frame_t *frame, plain_leaf_fn fn, void *context)
     walk_t at = {frame, plain_view(frame), fn, context, 0};
     for (int i = 0; i < frame->map->triangle_count; i++) {
         yb_part_t root;
-        refine_root(frame, plain_view(frame), frame->order[i], &root);
+        refine_root(frame, plain_view(frame), frame->order[i], NULL, &root);
         walk(&at, root, 0);
     }
     return at.count;

@@ -78,6 +78,60 @@ static void any_bands_give_the_same_picture(void **state)
     }
 }
 
+/* A map of as many summits as a code can say, each of its own height. */
+static void load_crowd(rng_t *rng)
+{
+    plan_t plan;
+    plan_init(&plan, 255, 255);
+    while (plan.points < 251) {
+        const plan_point_t at = {rng_range(rng, 1, 254), rng_range(rng, 1, 254)};
+        (void)plan_try(&plan, &at, 1, 30 + plan.points * 97 % 251);
+    }
+    load_plan(&plan);
+}
+
+/* From the top down, so that each band takes what the one above it hands on: also where there is
+ * more of that than is kept, where the stack grows over it, where a band is drawn a second time,
+ * and where their heights are all different.
+ */
+static void bands_hand_on_what_they_know(void **state)
+{
+    (void)state;
+    rng_t rng = {977};
+    int handed_on = 0;
+    int full = 0;
+    int grown_over = 0;
+    for (int round = 0; round < 120; round++) {
+        yb_view_t view;
+        const yb_screen_t *screen = random_scene(&rng, round, &view);
+        if (round % 8 < 4) {
+            load_crowd(&rng);
+            random_view(&view, &map, &rng);
+            view.edge_q4 = (uint16_t)(round % 8 == 0 ? 16 : 160);
+        }
+        yb_frame_begin(&frame, &map, &view, screen);
+        draw(whole, 0, screen->height);
+        for (int height = 1; height < 32; height *= 2) {
+            memset(again, 0x5a, sizeof again);
+            for (int y = 0, rows; y < screen->height; y += rows) {
+                rows = rng_range(&rng, height, 2 * height - 1);
+                rows = rows < screen->height - y ? rows : screen->height - y;
+                draw(again, y, rows);
+                if (rng_range(&rng, 0, 15) == 0)
+                    draw(again, y, rows);
+                handed_on += frame.queue.next != frame.queue.end;
+                full += frame.queue.full && frame.queue.row > 0;
+                grown_over += frame.queue.row < 0;
+            }
+            CHECK(memcmp(whole, again, yb_screen_pitch(screen) * screen->height) == 0,
+                  "view %d differs in bands of %d and more", round, height);
+        }
+    }
+    print_message("of the bands %d hand on something, %d are full, %d grown over\n", handed_on,
+                  full, grown_over);
+    assert_true(handed_on > 1000 && full > 100 && grown_over > 100);
+}
+
 /* A map, its frame and a band in one piece, of any length: the frame is as it is elsewhere, the map
  * stays as it is, and nothing behind the piece is touched.
  */
@@ -455,6 +509,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_bands_give_the_same_picture),
+        cmocka_unit_test(bands_hand_on_what_they_know),
         cmocka_unit_test(one_piece_of_memory_is_enough),
         cmocka_unit_test(a_band_leaves_the_rest_alone),
         cmocka_unit_test(culling_changes_no_pixel),

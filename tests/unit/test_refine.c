@@ -71,7 +71,7 @@ static void edges_are_the_same_from_both_ends(void **state)
         (void)plain_leaves(&frame, check_leaf, NULL);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, NULL, &root);
             check_leaf(NULL, root.point);
         }
     }
@@ -86,7 +86,7 @@ static void midpoints_are_the_surfaces(void **state)
         begin_random_frame(&rng, round);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, NULL, &root);
             for (int i = 0; i < 3; i++) {
                 const yb_vertex_t *a = &map.vertex[map.triangle[t][i]];
                 const yb_vertex_t *b = &map.vertex[map.triangle[t][(i + 1) % 3]];
@@ -180,7 +180,7 @@ static void bounds_hold_all_that_a_triangle_becomes(void **state)
         refine_see(&frame, bounds.first_row, bounds.end_row, &bounds.view);
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
-            refine_root(&frame, &bounds.view, (yb_triangle_t)t, &root);
+            refine_root(&frame, &bounds.view, (yb_triangle_t)t, NULL, &root);
             bounds.out[bounds.depth++] = !order_shows(&frame, (yb_triangle_t)t);
             hidden += bounds.out[0];
             descend(&bounds, root);
@@ -242,7 +242,7 @@ static void bins_hold_their_triangles(void **state)
         for (int t = 0; t < map.triangle_count; t++) {
             yb_part_t root;
             refine_bin(&frame, &whole, (yb_triangle_t)t);
-            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, &root);
+            refine_root(&frame, plain_view(&frame), (yb_triangle_t)t, NULL, &root);
             check_bins(t, root);
         }
     }

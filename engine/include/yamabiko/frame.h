@@ -213,6 +213,28 @@ typedef struct {
     yb_point_t middle;
 } yb_level_t;
 
+/* What a band hands on of a base triangle to the next one: see kept.h. */
+typedef struct {
+    yb_edge_t edge[3];
+    int32_t bulge;
+} yb_kept_t;
+
+/* They lie in the upper half of the stack: of powers of two the greatest that fits. */
+#define YB_KEPT_FIT (YB_MAX_LEVELS / 2 * sizeof(yb_level_t) / sizeof(yb_kept_t))
+enum {
+    YB_KEPT = YB_KEPT_FIT >= 128 ? 128 : YB_KEPT_FIT >= 64 ? 64 : YB_KEPT_FIT >= 32 ? 32 : 8
+};
+
+/* A queue of them, round and round: what the band above has handed on lies from the first up to the
+ * end, what this one hands on goes from there up to the next.
+ */
+typedef struct {
+    int16_t row;              /* the first of the band that may take them, or -1 */
+    uint8_t first, end, next; /* they wrap */
+    uint8_t above, below;     /* the last bin of the band above, the first of the one below */
+    bool full;                /* this band hands on no more */
+} yb_queue_t;
+
 /* Working memory of a frame. Only stats is for the caller to read. From yb_frame_begin on it is not
  * to be copied or moved. */
 typedef struct {
@@ -262,7 +284,15 @@ typedef struct {
     uint8_t *open; /* of a base triangle: how far it is turned to the eye (order.h); behind bins */
     uint8_t rim[(YB_MAX_TRIANGLES + 7) / 8]; /* has it an edge on the frame? A bit each. */
     yb_point_t root[3];
-    yb_level_t level[YB_MAX_LEVELS];
+    yb_queue_t queue;
+    yb_level_t *room; /* as far up as this, what is on the stack leaves what is kept alone */
+    union {
+        yb_level_t level[YB_MAX_LEVELS];
+        struct {
+            yb_level_t lower[YB_MAX_LEVELS - YB_MAX_LEVELS / 2];
+            yb_kept_t kept[YB_KEPT];
+        };
+    };
     /* Last, for yb_frame_place: of a map's vertices, and right behind them of its triangles. */
     yb_seen_t seen[YB_MAX_VERTICES];
     yb_triangle_t order_memory[YB_MAX_TRIANGLES];
