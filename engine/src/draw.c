@@ -186,19 +186,16 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
 {
     const walk_t walk = {frame, view, raster};
     const yb_triangle_t count = frame->map->triangle_count;
-    if (!frame->binned) {
-        for (yb_triangle_t i = 0; i < count; i++) {
-            if (order_shows(frame, frame->order[i]))
-                draw_root(&walk, frame->order[i]);
-        }
-        return;
-    }
+    const bool binned = frame->binned;
     const int first_bin = refine_bin_of(frame, raster->first_row);
     const int last_bin = refine_bin_of(frame, raster->end_row - 1);
-    kept_begin(frame, raster->first_row, raster->end_row);
+    if (binned)
+        kept_begin(frame, raster->first_row, raster->end_row);
     for (yb_triangle_t i = 0; i < count; i++) {
-        if (refine_touches(frame, frame->order[i], first_bin, last_bin))
-            draw_root(&walk, frame->order[i]);
+        const yb_triangle_t triangle = frame->order[i];
+        if (binned ? refine_touches(frame, triangle, first_bin, last_bin)
+                   : order_shows(frame, triangle))
+            draw_root(&walk, triangle);
     }
 }
 
