@@ -34,7 +34,7 @@
 /* Before a loop over the three corners of a triangle: it is written out, as the indices that it
  * goes by would take more room than its copies.
  */
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && __GNUC__ >= 8 && !defined(__clang__)
 #define WRITTEN_OUT _Pragma("GCC unroll 3")
 #else
 #define WRITTEN_OUT

@@ -32,7 +32,7 @@ void kept_begin(yb_frame_t *frame, int32_t first_row, int32_t end_row)
     queue->full = false;
     queue->above = (uint8_t)refine_bin_of(frame, first_row - 1); /* not asked of the first row */
     queue->below =
-        end_row == frame->screen.height ? NO_BIN : (uint8_t)refine_bin_of(frame, end_row);
+        (uint8_t)(end_row == frame->screen.height ? NO_BIN : refine_bin_of(frame, end_row));
 }
 
 void kept_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
