@@ -1,4 +1,4 @@
-/* Leaves that stick out of the view: cut at the near distance, a screen size beyond the screen and
+/* Leaves that stick out of the view: cut at the least distance, a screen size beyond the screen and
  * at the pyramid in which points can be projected.
  *
  * Nearly all leaves need none of this. A cut point is always computed from the end inside to the
@@ -11,6 +11,14 @@
 #include <yamabiko/yamabiko.h>
 
 #include "raster.h"
+
+/* Nothing nearer is drawn. Points nearer than the near distance have no spots, but the ground
+ * before the feet of who looks down is not half as far.
+ */
+static inline int32_t clip_least(const yb_frame_t *frame)
+{
+    return frame->near >> 3;
+}
 
 /* Clips a triangle and draws what is left; true if that is front-facing and on the screen. */
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],

@@ -37,6 +37,13 @@ static void on_foot(yb_view_t *view, const yb_map_t *map)
     yb_view_sun(view, YB_DEGREES(200), YB_DEGREES(40));
 }
 
+/* Down, to what is nearer than anything that has a place on the screen. */
+static void to_the_feet(yb_view_t *view, const yb_map_t *map)
+{
+    yb_view_walk(view, map, (uint16_t)(map->east_q8 / 8 * 3), (uint16_t)(map->north_q8 / 8 * 5),
+                 128, YB_DEGREES(70), -(int16_t)YB_DEGREES(40));
+}
+
 /* Lines, an atlas's colours, haze. */
 static void with_lines(yb_view_t *view, const yb_map_t *map)
 {
@@ -72,7 +79,7 @@ static const struct {
 } views[GOLDEN_VIEWS] = {
     {"orbit", from_north_west}, {"above", from_far_above}, {"down", straight_down},
     {"flood", flooded},         {"foot", on_foot},         {"lines", with_lines},
-    {"dusk", at_dusk},          {"ink", in_ink},
+    {"dusk", at_dusk},          {"ink", in_ink},           {"feet", to_the_feet},
 };
 
 const char *golden_view_name(int which)

@@ -4,7 +4,7 @@
 
 #include <yamabiko/yamabiko.h>
 
-#define GOLDEN_VIEWS 8
+#define GOLDEN_VIEWS 9
 #define GOLDEN_SHADOW_SIDE 32
 
 const char *golden_view_name(int which);

@@ -6,7 +6,7 @@ import sys
 
 import targets
 
-VIEWS = ("orbit", "above", "down", "flood", "foot")
+VIEWS = ("orbit", "above", "down", "flood", "foot", "feet")
 
 
 def main():

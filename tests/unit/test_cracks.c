@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clip.h"
 #include "colour.h"
 #include "plain_frame.h"
 #include "rays.h"
@@ -27,7 +28,9 @@ static void draw(const yb_view_t *view, const yb_screen_t *screen)
 
 /* --- Cracks ----------------------------------------------------------------------------------- */
 
-/* Rays from the eye through places of the screen, and which of them met the front of a leaf. */
+/* Rays from the eye through places of the screen, and how far off they met the front of a leaf: 0,
+ * not at all.
+ */
 enum {
     CRACK_WIDTH = 128,
     CRACK_HEIGHT = 64,
@@ -37,10 +40,10 @@ enum {
 typedef struct {
     double left, top, pitch; /* the first place, and from one to the next, in pixels */
     int across, down;
-    bool *met;
+    double *depth;
 } rays_t;
 
-/* Where on the screen the part of a triangle beyond the near distance lies. */
+/* Where on the screen the part of a triangle beyond the least distance lies. */
 typedef struct {
     double left, right, top, bottom;
 } box_t;
@@ -61,10 +64,10 @@ static void find_box(double p[3][3], box_t *box)
     for (int i = 0; i < 3; i++) {
         const double *a = p[i];
         const double *b = p[(i + 1) % 3];
-        if (a[2] >= frame.near)
+        if (a[2] >= clip_least(&frame))
             widen(box, a);
-        if ((a[2] >= frame.near) != (b[2] >= frame.near)) {
-            double part = (frame.near - a[2]) / (b[2] - a[2]);
+        if ((a[2] >= clip_least(&frame)) != (b[2] >= clip_least(&frame))) {
+            double part = (clip_least(&frame) - a[2]) / (b[2] - a[2]);
             double cut[3];
             for (int k = 0; k < 3; k++)
                 cut[k] = a[k] + part * (b[k] - a[k]);
@@ -78,7 +81,7 @@ static double within(double a, double low, double high)
     return fmin(fmax(a, low), high);
 }
 
-/* Marks the rays that meet the front of a leaf beyond the near distance. */
+/* Marks the rays that meet the front of a leaf beyond the least distance. */
 static void cast(void *context, const yb_point_t *const corner[3])
 {
     const rays_t *rays = context;
@@ -98,30 +101,32 @@ static void cast(void *context, const yb_point_t *const corner[3])
             bool met;
             const double depth = ray_depth(&frame, p, rays->left + x * rays->pitch,
                                            rays->top + y * rays->pitch, &met);
-            if (met && depth >= frame.near * 1.02 + 2)
-                rays->met[y * rays->across + x] = true;
+            double *nearest = &rays->depth[y * rays->across + x];
+            if (met && depth >= clip_least(&frame) * 1.02 + 2 &&
+                (*nearest == 0 || depth < *nearest))
+                *nearest = depth;
         }
     }
 }
 
-/* Does ground lie all round the centre of pixel i without a gap? Farther round than corners are
- * moved by rounding: to 1/16 pixel, and to one unit where they are cut at the near distance.
- * Between the outlines of two ridges the background rightly shows through.
+/* Does ground lie all round the centre of pixel i without a gap, which it has so far off? Farther
+ * round than corners are moved by rounding: to 1/16 pixel, and to one unit where they have no
+ * spots. Between the outlines of two ridges the background rightly shows through.
  */
-static bool all_ground(int i)
+static bool all_ground(int i, double depth)
 {
-    static bool met[CLOSE * CLOSE];
-    memset(met, 0, sizeof met);
-    double radius = 0.15 + frame.focal_q4 / 16.0 / frame.near;
+    static double around[CLOSE * CLOSE];
+    memset(around, 0, sizeof around);
+    double radius = 0.15 + frame.focal_q4 / 16.0 / fmin(depth, frame.near);
     rays_t rays = {.left = i % CRACK_WIDTH + 0.5 - radius,
                    .top = i / CRACK_WIDTH + 0.5 - radius,
                    .pitch = 2 * radius / (CLOSE - 1),
                    .across = CLOSE,
                    .down = CLOSE,
-                   .met = met};
+                   .depth = around};
     (void)plain_leaves(&frame, cast, &rays);
     for (int k = 0; k < CLOSE * CLOSE; k++) {
-        if (!met[k])
+        if (around[k] == 0)
             return false;
     }
     return true;
@@ -152,8 +157,36 @@ static void load_extreme(rng_t *rng, int kind)
     load_plan(&plan);
 }
 
+/* What rays met the ground, pixels that show the background there, and how many rays met it nearer
+ * than the near distance.
+ */
+typedef struct {
+    int hits, gaps, close;
+} found_t;
+
+static void look_for_gaps(const yb_view_t *view, int seed, int round, found_t *found)
+{
+    const yb_screen_t screen = {CRACK_WIDTH, CRACK_HEIGHT, YB_GREY4};
+    draw(view, &screen);
+    static double depth[CRACK_WIDTH * CRACK_HEIGHT];
+    memset(depth, 0, sizeof depth);
+    rays_t rays = {0.5, 0.5, 1, CRACK_WIDTH, CRACK_HEIGHT, depth};
+    (void)plain_leaves(&frame, cast, &rays);
+    for (int i = 0; i < CRACK_WIDTH * CRACK_HEIGHT; i++) {
+        int pixel = i % 2 == 0 ? whole[i / 2] >> 4 : whole[i / 2] & 15;
+        found->hits += depth[i] > 0;
+        found->close += depth[i] > 0 && depth[i] < frame.near;
+        if (depth[i] == 0 || pixel != 0)
+            continue;
+        found->gaps++;
+        CHECK(!all_ground(i, depth[i]),
+              "seed %d, view %d: the background shows through at (%d, %d)", seed, round,
+              i % CRACK_WIDTH, i / CRACK_WIDTH);
+    }
+}
+
 /* Cameras in the map, above or below it, at its frame's edge, straight down, looking away … */
-static void look_for_cracks(uint64_t seed, int rounds, int *hits, int *gaps)
+static void look_for_cracks(uint64_t seed, int rounds, found_t *found)
 {
     rng_t rng = {seed};
     for (int round = 0; round < rounds; round++) {
@@ -166,36 +199,46 @@ static void look_for_cracks(uint64_t seed, int rounds, int *hits, int *gaps)
                 view.look_q8[i] = 2 * view.eye_q8[i] - view.look_q8[i];
         }
         view.walls = false;
-        const yb_screen_t screen = {CRACK_WIDTH, CRACK_HEIGHT, YB_GREY4};
-        draw(&view, &screen);
-        static bool met[CRACK_WIDTH * CRACK_HEIGHT];
-        memset(met, 0, sizeof met);
-        rays_t rays = {0.5, 0.5, 1, CRACK_WIDTH, CRACK_HEIGHT, met};
-        (void)plain_leaves(&frame, cast, &rays);
-        for (int i = 0; i < CRACK_WIDTH * CRACK_HEIGHT; i++) {
-            int pixel = i % 2 == 0 ? whole[i / 2] >> 4 : whole[i / 2] & 15;
-            *hits += met[i];
-            if (!met[i] || pixel != 0)
-                continue;
-            (*gaps)++;
-            CHECK(!all_ground(i), "seed %d, view %d: the background shows through at (%d, %d)",
-                  (int)seed, round, i % CRACK_WIDTH, i / CRACK_WIDTH);
-        }
+        look_for_gaps(&view, (int)seed, round, found);
     }
 }
 
 static void there_are_no_cracks(void **state)
 {
     (void)state;
-    int hits = 0;
-    int gaps = 0;
-    look_for_cracks(74, 1000, &hits, &gaps);
+    found_t found = {0, 0, 0};
+    look_for_cracks(74, 1000, &found);
     /* Among these are corners that are cut twice, very near to a far eye's least distance. */
-    look_for_cracks(1074, 570, &hits, &gaps);
-    look_for_cracks(8074, 504, &hits, &gaps);
-    print_message("%d pixels lie on the ground and show it, but for %d at its outline\n", hits,
-                  gaps);
-    assert_true(hits > 1200000 && gaps < hits / 5000);
+    look_for_cracks(1074, 570, &found);
+    look_for_cracks(8074, 504, &found);
+    print_message("%d pixels lie on the ground and show it, but for %d at its outline\n",
+                  found.hits, found.gaps);
+    assert_true(found.hits > 1200000 && found.gaps < found.hits / 5000);
+}
+
+/* Who stands on the ground and looks down, to his feet, sees ground there. */
+static void the_ground_at_the_feet_is_there(void **state)
+{
+    (void)state;
+    rng_t rng = {1303};
+    found_t found = {0, 0, 0};
+    for (int round = 0; round < 300; round++) {
+        if (round % 8 == 0) {
+            plan_t plan;
+            random_gentle_plan(&plan, &rng, 12);
+            load_plan(&plan);
+        }
+        yb_view_t view;
+        const uint16_t x = (uint16_t)rng_range(&rng, 0, map.east_q8);
+        const uint16_t y = (uint16_t)rng_range(&rng, 0, map.north_q8);
+        yb_view_init(&view, &map);
+        yb_view_walk(&view, &map, x, y, 128, (uint16_t)rng_range(&rng, 0, 65535),
+                     (int16_t)-rng_range(&rng, YB_DEGREES(20), YB_DEGREES(90)));
+        look_for_gaps(&view, 1303, round, &found);
+    }
+    print_message("%d pixels lie on the ground, %d of them near, and show it, but for %d\n",
+                  found.hits, found.close, found.gaps);
+    assert_true(found.close > 300000 && found.gaps < found.hits / 5000);
 }
 
 /* --- Walls ------------------------------------------------------------------------------------ */
@@ -246,6 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(there_are_no_cracks),
+        cmocka_unit_test(the_ground_at_the_feet_is_there),
         cmocka_unit_test(walls_meet_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
