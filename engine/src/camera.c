@@ -118,7 +118,7 @@ void camera_clamp(yb_frame_t *frame)
 }
 
 /* How far a depth is shifted left by 10 and then right until it has 15 bits. It is LEAST_NEAR or
- * more, or what clipping rounds that to: it has 6 bits or more.
+ * more, or, in quarters, an eighth of that, rounded: it has 5 bits or more.
  */
 static inline int shift_of(int32_t depth)
 {

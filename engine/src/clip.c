@@ -95,7 +95,7 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
     at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
     at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
     camera_project(frame, at, spot); /* but for its 1/depth, of a quarter as much */
-    spot->near = (uint16_t)camera_near(frame, at->depth >> FINER);
+    spot->near = (uint16_t)camera_near(frame, fix_max(at->depth >> FINER, frame->near));
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
