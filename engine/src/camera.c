@@ -351,12 +351,21 @@ void camera_begin(yb_frame_t *frame, int32_t stray)
 
 /* --- The screen ------------------------------------------------------------------------------- */
 
-void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
+void camera_view_finely(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
 {
     const way_t way = way_to(frame, place, top_q8);
-    to->right = (way.x * frame->right_x + way.y * frame->right_y) >> 14;
-    to->up = (way.x * frame->up_x + way.y * frame->up_y + way.z * frame->up_z) >> 14;
-    to->depth = depth_of(frame, way);
+    const int shift = 14 - CAMERA_FINER;
+    to->right = (way.x * frame->right_x + way.y * frame->right_y) >> shift;
+    to->up = (way.x * frame->up_x + way.y * frame->up_y + way.z * frame->up_z) >> shift;
+    to->depth = (way.x * frame->depth_x + way.y * frame->depth_y + way.z * frame->depth_z) >> shift;
+}
+
+void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to)
+{
+    camera_view_finely(frame, place, top_q8, to);
+    to->right >>= CAMERA_FINER;
+    to->up >>= CAMERA_FINER;
+    to->depth >>= CAMERA_FINER;
 }
 
 int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8)

@@ -31,8 +31,15 @@ void camera_clamp(yb_frame_t *frame);
  */
 void camera_begin(yb_frame_t *frame, int32_t stray);
 
-/* Where a place of the map at height top_q8 lies in view space. */
+/* Where a place of the map at height top_q8 lies in view space; in quarters of its unit, where
+ * leaves are cut: before the feet a unit is many pixels.
+ */
+enum {
+    CAMERA_FINER = 2 /* bits */
+};
 void camera_view(const yb_frame_t *frame, uint32_t place, int32_t top_q8, camera_point_t *to);
+void camera_view_finely(const yb_frame_t *frame, uint32_t place, int32_t top_q8,
+                        camera_point_t *to);
 
 /* Its depth alone. */
 int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8);

@@ -7,8 +7,7 @@
 
 enum {
     PLANES = 5,
-    MOST_CORNERS = 3 + PLANES,
-    FINER = 2 /* bits by which corners are finer than the view's unit: one may be cut twice */
+    MOST_CORNERS = 3 + PLANES
 };
 
 typedef struct {
@@ -23,7 +22,7 @@ typedef struct {
 static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int plane)
 {
     const camera_point_t *p = &corner->at;
-    int64_t inside = p->depth - (clip_least(frame) << FINER);
+    int64_t inside = p->depth - (clip_least(frame) << CAMERA_FINER);
     if (plane > 0) {
         /* One screen size beyond each side: 3/2 from the middle. But never beyond |right|, |up| =
          * 2 depth. */
@@ -95,7 +94,7 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
     at->right = fix_clamp(at->right, -2 * at->depth, 2 * at->depth);
     at->up = fix_clamp(at->up, -2 * at->depth, 2 * at->depth);
     camera_project(frame, at, spot); /* but for its 1/depth, of a quarter as much */
-    spot->near = (uint16_t)camera_near(frame, fix_max(at->depth >> FINER, frame->near));
+    spot->near = (uint16_t)camera_near(frame, fix_max(at->depth >> CAMERA_FINER, frame->near));
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
@@ -105,10 +104,7 @@ bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t
     int count = 3;
     for (int i = 0; i < 3; i++) {
         corner_t *to = &polygon[i];
-        camera_view(frame, corner[i]->place, corner[i]->top_q8, &to->at);
-        to->at.right *= 1 << FINER;
-        to->at.up *= 1 << FINER;
-        to->at.depth *= 1 << FINER;
+        camera_view_finely(frame, corner[i]->place, corner[i]->top_q8, &to->at);
         to->spot = corner[i]->spot.near > 0 ? &corner[i]->spot : NULL;
     }
     for (int plane = 0; plane < PLANES && count > 0; plane++)

@@ -146,7 +146,6 @@ static void bin_all(yb_frame_t *frame)
     for (yb_triangle_t t = 0; t < frame->map->triangle_count; t++)
         refine_bin(frame, &whole, t);
     frame->binned = true;
-    kept_forget(frame);
 }
 
 /* Draws rows, from the nearest triangle on. */

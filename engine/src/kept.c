@@ -1,8 +1,10 @@
 #include "kept.h"
 
+_Static_assert(sizeof((yb_frame_t *)0)->kept <= YB_MAX_LEVELS / 2 * sizeof(yb_level_t),
+               "what is kept lies in the upper half of the stack");
+
 enum {
-    NO_ROW = -1,
-    NO_BIN = 16 /* beyond all */
+    NO_ROW = -1
 };
 
 void kept_forget(yb_frame_t *frame)
@@ -10,7 +12,7 @@ void kept_forget(yb_frame_t *frame)
     yb_queue_t *queue = &frame->queue;
     queue->row = NO_ROW;
     queue->first = queue->end = queue->next = 0;
-    queue->full = true;
+    queue->full = true; /* as long as nothing is binned */
     frame->room = &frame->level[YB_MAX_LEVELS - YB_MAX_LEVELS / 2 - REFINE_PIECES];
 }
 
@@ -27,12 +29,10 @@ void kept_begin(yb_frame_t *frame, int32_t first_row, int32_t end_row)
     if (queue->row != first_row)
         kept_forget(frame);
     queue->row = (int16_t)end_row;
-    queue->first = queue->end;
-    queue->end = queue->next;
+    queue->end = queue->next; /* the band above has taken out all that was there before */
     queue->full = false;
     queue->above = (uint8_t)refine_bin_of(frame, first_row - 1); /* not asked of the first row */
-    queue->below =
-        (uint8_t)(end_row == frame->screen.height ? NO_BIN : refine_bin_of(frame, end_row));
+    queue->below = (uint8_t)refine_bin_of(frame, end_row);
 }
 
 void kept_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,

@@ -1,14 +1,14 @@
 /* What a band hands on to the next: of the base triangles that go on below it, how often their
  * edges are halved, and how far they bulge. Both bands have them in the same order, so it is a
  * queue. It lies where the stack of refinement seldom comes; if it does, all is forgotten, and
- * found anew.
+ * found anew. Where triangles are not binned nothing is handed on.
  */
 #ifndef YB_KEPT_H
 #define YB_KEPT_H
 
 #include "refine.h"
 
-/* Forgets all: of a frame that begins, or whose order is another one. */
+/* Forgets all: of a frame that begins, or whose order is another one, so that it is binned anew. */
 void kept_forget(yb_frame_t *frame);
 
 /* Begins a band whose base triangles are binned. What the one before it has handed on is there, if

@@ -2,6 +2,7 @@
 
 #include "camera.h"
 #include "fix.h"
+#include "kept.h"
 #include "mesh.h"
 #include "refine.h"
 #include "relief.h"
@@ -194,6 +195,7 @@ int32_t order_rows(yb_frame_t *frame, int32_t row, int32_t end)
     const int way = row_way(frame, row);
     if (frame->order_for != way) {
         frame->binned = false;
+        kept_forget(frame);
         sort(frame, way);
     }
     frame->order_for = (uint8_t)way;

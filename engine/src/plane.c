@@ -11,8 +11,8 @@
  * How far it goes right in a sixteenth of a row is rounded to the nearest 2^-16 sixteenth. So over
  * 255 of them it is off by less than PLANE_HALF, and where it crosses a row is a multiple of 2^16 /
  * 255 = 257 or more of these: by PLANE_HALF less its whole pixels are right, as those of small
- * triangles are. Of a side over a whole screen of 512 rows, and one more above and below, they may
- * be off by an eighth of a sixteenth; what is up to 2048 pixels off fits.
+ * triangles are. From a corner 512 rows above a screen of as many to its last row they may be off
+ * by an eighth of a sixteenth; what is up to 2048 pixels off fits.
  */
 enum {
     PLANE_FRACTION = 16, /* of a sixteenth of a pixel */
@@ -32,7 +32,7 @@ typedef struct {
     plane_wrap_t at, step;
 } long_side_t;
 
-/* size * 2^17 / dy, rounded down. A way of up to 24656 sixteenths times that is below 2^32 (see
+/* size * 2^17 / dy, rounded down. A way of up to 24656 sixteenths times 2^17 is below 2^32 (see
  * raster_area_t).
  */
 static inline plane_wrap_t twice_slope(uint32_t size, uint32_t dy)

@@ -1,5 +1,5 @@
-/* What the two ways to fill a triangle share: its sides, and what lies between them. raster.c fills
- * small ones, fast; plane.c all others.
+/* What fills a triangle: the sides of small ones, as raster.c has them, and what lies between two
+ * sides, also where plane.c fills all others.
  */
 #ifndef YB_ROWS_H
 #define YB_ROWS_H

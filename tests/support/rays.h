@@ -14,10 +14,10 @@
 static inline void ray_corner(const yb_frame_t *frame, const yb_point_t *corner, double p[3])
 {
     camera_point_t place;
-    camera_view(frame, corner->place, corner->top_q8, &place);
-    p[0] = place.right;
-    p[1] = place.up;
-    p[2] = place.depth;
+    camera_view_finely(frame, corner->place, corner->top_q8, &place);
+    p[0] = place.right / 4.;
+    p[1] = place.up / 4.;
+    p[2] = place.depth / 4.;
     if (corner->spot.near == 0)
         return;
     p[0] = (corner->spot.x_q4 - frame->screen.width * 8) * p[2] / frame->focal_q4;

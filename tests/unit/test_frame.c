@@ -90,6 +90,29 @@ static void load_crowd(rng_t *rng)
     load_plan(&plan);
 }
 
+/* What a band has handed on is what the next would find: of the first triangles, in their order,
+ * that both have.
+ */
+static void check_queue(int first_row, int end_row)
+{
+    const yb_queue_t *queue = &frame.queue;
+    const int first_bin = refine_bin_of(&frame, first_row);
+    const int last_bin = refine_bin_of(&frame, end_row - 1);
+    uint8_t at = queue->end;
+    for (int i = 0; i < map.triangle_count && at != queue->next; i++) {
+        const yb_triangle_t triangle = frame.order[i];
+        if (!refine_touches(&frame, triangle, first_bin, last_bin) ||
+            !refine_touches(&frame, triangle, refine_bin_of(&frame, end_row), 15))
+            continue;
+        const yb_kept_t *kept = &frame.kept[at++ % YB_KEPT];
+        yb_part_t fresh;
+        refine_root(&frame, plain_view(&frame), triangle, NULL, &fresh);
+        assert_memory_equal(kept->edge, fresh.edge, sizeof fresh.edge);
+        assert_int_equal(kept->bulge, fresh.bulge);
+    }
+    assert_int_equal(at, queue->next);
+}
+
 /* From the top down, so that each band takes what the one above it hands on: also where there is
  * more of that than is kept, where the stack grows over it, where a band is drawn a second time,
  * and where their heights are all different.
@@ -119,6 +142,8 @@ static void bands_hand_on_what_they_know(void **state)
                 draw(again, y, rows);
                 if (rng_range(&rng, 0, 15) == 0)
                     draw(again, y, rows);
+                if (y + rows < screen->height)
+                    check_queue(y, y + rows);
                 handed_on += frame.queue.next != frame.queue.end;
                 full += frame.queue.full && frame.queue.row > 0;
                 grown_over += frame.queue.row < 0;

@@ -222,7 +222,11 @@ typedef struct {
 /* They lie in the upper half of the stack: of powers of two the greatest that fits. */
 #define YB_KEPT_FIT (YB_MAX_LEVELS / 2 * sizeof(yb_level_t) / sizeof(yb_kept_t))
 enum {
-    YB_KEPT = YB_KEPT_FIT >= 128 ? 128 : YB_KEPT_FIT >= 64 ? 64 : YB_KEPT_FIT >= 32 ? 32 : 8
+    YB_KEPT = YB_KEPT_FIT >= 128  ? 128
+              : YB_KEPT_FIT >= 64 ? 64
+              : YB_KEPT_FIT >= 32 ? 32
+              : YB_KEPT_FIT >= 16 ? 16
+                                  : 8
 };
 
 /* A queue of them, round and round: what the band above has handed on lies from the first up to the
