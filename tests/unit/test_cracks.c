@@ -102,8 +102,7 @@ static void cast(void *context, const yb_point_t *const corner[3])
             const double depth = ray_depth(&frame, p, rays->left + x * rays->pitch,
                                            rays->top + y * rays->pitch, &met);
             double *nearest = &rays->depth[y * rays->across + x];
-            if (met && depth >= clip_least(&frame) * 1.5 + 2 &&
-                (*nearest == 0 || depth < *nearest))
+            if (met && depth >= clip_least(&frame) * 1.5 + 2 && (*nearest == 0 || depth < *nearest))
                 *nearest = depth;
         }
     }
