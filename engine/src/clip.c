@@ -12,6 +12,7 @@ enum {
 
 typedef struct {
     camera_point_t at;
+    int32_t z_q8;
     const yb_spot_t *spot; /* a corner's own, NULL where it was cut or has none */
 } corner_t;
 
@@ -43,6 +44,7 @@ static void cut(const corner_t *from, const corner_t *to, int32_t part_q20, corn
     cut_at->at.right = from->at.right + fix_product(to->at.right - from->at.right, part_q20, 20);
     cut_at->at.up = from->at.up + fix_product(to->at.up - from->at.up, part_q20, 20);
     cut_at->at.depth = from->at.depth + fix_product(to->at.depth - from->at.depth, part_q20, 20);
+    cut_at->z_q8 = from->z_q8 + fix_product(to->z_q8 - from->z_q8, part_q20, 20);
     cut_at->spot = NULL;
 }
 
@@ -98,24 +100,33 @@ static void see_corner(const yb_frame_t *frame, corner_t *corner, yb_spot_t *spo
 }
 
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
-               uint16_t pixel)
+               shade_t shade, bool lines)
 {
     corner_t polygon[MOST_CORNERS + 1]; /* before the last plane room for two more */
     int count = 3;
     for (int i = 0; i < 3; i++) {
         corner_t *to = &polygon[i];
         camera_view_finely(frame, corner[i]->place, corner[i]->top_q8, &to->at);
+        to->z_q8 = corner[i]->z_q8;
         to->spot = corner[i]->spot.near > 0 ? &corner[i]->spot : NULL;
     }
     for (int plane = 0; plane < PLANES && count > 0; plane++)
         count = clip_plane(frame, polygon, count, plane);
-    yb_spot_t fan[3];
+    yb_point_t fan[3];
+    const yb_point_t *const p[3] = {&fan[0], &fan[1], &fan[2]};
     bool drawn = false;
     for (int i = 0; i < count; i++) {
-        see_corner(frame, &polygon[i], &fan[fix_min(i, 2)]);
+        yb_point_t *const to = &fan[fix_min(i, 2)];
+        to->place = corner[0]->place; /* of a small triangle any will do */
+        to->top_q8 = corner[0]->top_q8;
+        to->z_q8 = polygon[i].z_q8;
+        see_corner(frame, &polygon[i], &to->spot);
         if (i < 2)
             continue;
-        if (raster_draw(raster, &fan[0], &fan[1], &fan[2], pixel) != RASTER_NOTHING)
+        raster_cut_t cut;
+        const bool cuts = lines && shade_cut(frame, p, shade, &cut);
+        if (raster_draw(raster, &fan[0].spot, &fan[1].spot, &fan[2].spot, shade_pixel(shade),
+                        cuts ? &cut : NULL) != RASTER_NOTHING)
             drawn = true;
         fan[1] = fan[2];
     }

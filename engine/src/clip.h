@@ -11,6 +11,7 @@
 #include <yamabiko/yamabiko.h>
 
 #include "raster.h"
+#include "shade.h"
 
 /* Nothing nearer is drawn. Points nearer than the near distance have no spots, but the ground
  * before the feet of who looks down is not half as far.
@@ -20,8 +21,10 @@ static inline int32_t clip_least(const yb_frame_t *frame)
     return frame->near >> 3;
 }
 
-/* Clips a triangle and draws what is left; true if that is front-facing and on the screen. */
+/* Clips a triangle and draws what is left, with its lines, if it may have any; true if that is
+ * front-facing and on the screen.
+ */
 bool clip_draw(const yb_frame_t *frame, const raster_t *raster, const yb_point_t *const corner[3],
-               uint16_t pixel);
+               shade_t shade, bool lines);
 
 #endif

@@ -35,7 +35,7 @@ static void draw_clipped(yb_frame_t *frame, const refine_view_t *view, const ras
     if (p[0]->spot.near == 0 && p[1]->spot.near == 0 && p[2]->spot.near == 0 &&
         refine_misses(frame, view, p, 3, 0))
         return;
-    if (!clip_draw(frame, raster, p, shade_pixel(shade_ground(frame, p))))
+    if (!clip_draw(frame, raster, p, shade_ground(frame, p), frame->lines))
         return;
     frame->stats.drawn++;
     if (raster->band == NULL)
@@ -48,7 +48,8 @@ SELDOM void draw_odd(const yb_frame_t *frame, const raster_t *raster, const yb_p
 {
     const shade_t shade = shade_ground(frame, p);
     raster_cut_t cut;
-    const bool cuts = frame->lines && shade_cut(frame, p, shade, &cut);
+    const bool cuts = frame->lines && (COPIES ? shade_cut_here(frame, p, shade, &cut)
+                                              : shade_cut(frame, p, shade, &cut));
     if (COPIES && small && !cuts)
         raster_plain(raster, shape, shade_pixel(shade));
     else if (small)

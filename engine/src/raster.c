@@ -171,7 +171,7 @@ raster_look_t raster_front(const yb_spot_t *a, const yb_spot_t *b, const yb_spot
 #endif
 
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                          const yb_spot_t *c, uint16_t pixel)
+                          const yb_spot_t *c, uint16_t pixel, const raster_cut_t *cut)
 {
     if (a->near == 0 || b->near == 0 || c->near == 0)
         return RASTER_BEYOND;
@@ -186,6 +186,6 @@ raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_s
     raster_shape_t shape;
     raster_look_t look = raster_front(a, b, c, &shape);
     if (raster->band != NULL && (look == RASTER_FRONT || look == RASTER_SMALL))
-        raster_fill(raster, &shape, look, pixel, NULL);
+        raster_fill(raster, &shape, look, pixel, cut);
     return look;
 }

@@ -171,6 +171,6 @@ static inline void raster_fill(const raster_t *raster, raster_shape_t *shape, ra
 
 /* Both: looks, and draws what is in front, if there is a band. */
 raster_look_t raster_draw(const raster_t *raster, const yb_spot_t *a, const yb_spot_t *b,
-                          const yb_spot_t *c, uint16_t pixel);
+                          const yb_spot_t *c, uint16_t pixel, const raster_cut_t *cut);
 
 #endif

@@ -300,6 +300,12 @@ bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t 
                            : cut_by(frame, p, shade, !COPIES && shore, cut);
 }
 
+bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+               raster_cut_t *cut)
+{
+    return shade_cut_here(frame, p, shade, cut);
+}
+
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b)
 {
     /* Outward: to the right of the edge. */

@@ -31,8 +31,8 @@ bool shade_lines(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t 
 /* The line that a triangle that looks like this is cut by, if there is one: the shore, or contour
  * lines.
  */
-static inline bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
-                             raster_cut_t *cut)
+TINY bool shade_cut_here(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+                         raster_cut_t *cut)
 {
     const int32_t z = p[0]->z_q8;
     const int32_t rise_b = p[1]->z_q8 - z;
@@ -53,6 +53,10 @@ static inline bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[
         return false;
     return shade_lines(frame, p, shade, false, cut);
 }
+
+/* The same, where a call is good enough. */
+bool shade_cut(const yb_frame_t *frame, const yb_point_t *const p[3], shade_t shade,
+               raster_cut_t *cut);
 
 /* The pixel value of the wall below the edge ab of the frame, ground to its left. */
 uint16_t shade_wall(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b);

@@ -72,8 +72,10 @@ static void draw_wall(yb_frame_t *frame, const raster_t *raster, wall_t corner)
     frame->stats.refined += 2;
     for (int i = 1; i < 3; i++) {
         const yb_point_t *const p[3] = {corner[0], corner[i], corner[i + 1]};
-        raster_look_t look = raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel);
-        if (look != RASTER_NOTHING && (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel)))
+        raster_look_t look =
+            raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, pixel, NULL);
+        if (look != RASTER_NOTHING &&
+            (look != RASTER_BEYOND || clip_draw(frame, raster, p, pixel, false)))
             frame->stats.drawn++;
     }
 }

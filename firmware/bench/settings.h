@@ -5,7 +5,7 @@
 #define YB_SETTINGS_H
 
 enum {
-    STACK_BYTES = 960,
+    STACK_BYTES = 1000,
     BYTES_12K = 12 * 1024 - STACK_BYTES, /* 128 x 64 */
     BYTES_32K = 32 * 1024 - STACK_BYTES  /* 320 x 240 */
 };

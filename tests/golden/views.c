@@ -37,11 +37,14 @@ static void on_foot(yb_view_t *view, const yb_map_t *map)
     yb_view_sun(view, YB_DEGREES(200), YB_DEGREES(40));
 }
 
-/* Down, to what is nearer than anything that has a place on the screen. */
+/* Down, to what is nearer than anything that has a place on the screen, and a line through it. */
 static void to_the_feet(yb_view_t *view, const yb_map_t *map)
 {
-    yb_view_walk(view, map, (uint16_t)(map->east_q8 / 8 * 3), (uint16_t)(map->north_q8 / 8 * 5),
-                 128, YB_DEGREES(70), -(int16_t)YB_DEGREES(40));
+    const uint16_t x = (uint16_t)(map->east_q8 / 8 * 3);
+    const uint16_t y = (uint16_t)(map->north_q8 / 8 * 5);
+    yb_view_walk(view, map, x, y, 128, YB_DEGREES(70), -(int16_t)YB_DEGREES(40));
+    view->contour_q8 = (map->high_q8 - map->low_q8) / 24 + YB_LEAST_CONTOUR_Q8;
+    view->contour_at_q8 = yb_map_height(map, x, y) + 8;
 }
 
 /* Lines, an atlas's colours, haze. */

@@ -105,13 +105,13 @@ static void draw_leaf(void *context, const yb_point_t *const p[3])
     const shade_t shade = shade_ground(drawing->frame, p);
     const uint16_t pixel = shade_pixel(shade);
     if (p[0]->spot.near == 0 || p[1]->spot.near == 0 || p[2]->spot.near == 0)
-        (void)clip_draw(drawing->frame, &drawing->raster, p, pixel);
+        (void)clip_draw(drawing->frame, &drawing->raster, p, shade, drawing->frame->lines);
     else {
         raster_cut_t cut;
         const yb_spot_t *const spot[3] = {&p[0]->spot, &p[1]->spot, &p[2]->spot};
         raster_t only_look = drawing->raster;
         only_look.band = NULL;
-        if (raster_draw(&only_look, spot[0], spot[1], spot[2], pixel) == RASTER_NOTHING)
+        if (raster_draw(&only_look, spot[0], spot[1], spot[2], pixel, NULL) == RASTER_NOTHING)
             return;
         raster_shape_t shape;
         raster_look_t look = raster_front(spot[0], spot[1], spot[2], &shape);

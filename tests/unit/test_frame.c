@@ -326,7 +326,7 @@ static void expect_leaf(void *context, const yb_point_t *const p[3])
 {
     uint32_t *next = context;
     const raster_t whole_screen = {.screen = &frame.screen, .end_row = frame.screen.height};
-    raster_look_t look = raster_draw(&whole_screen, &p[0]->spot, &p[1]->spot, &p[2]->spot, 0);
+    raster_look_t look = raster_draw(&whole_screen, &p[0]->spot, &p[1]->spot, &p[2]->spot, 0, NULL);
     uint32_t sum =
         sum_of(p[0]->place, p[1]->place, p[2]->place, p[0]->top_q8 + p[1]->top_q8 + p[2]->top_q8);
     if (look == RASTER_NOTHING)

@@ -55,8 +55,8 @@ static void draw_number(void *context, const yb_point_t *const p[3])
     for (int i = 0; i < 3; i++)
         ray_corner(&frame, p[i], leaves[leaf_count].p[i]);
     const uint16_t value = value_of(++leaf_count);
-    if (raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, value) == RASTER_BEYOND)
-        (void)clip_draw(&frame, raster, p, value);
+    if (raster_draw(raster, &p[0]->spot, &p[1]->spot, &p[2]->spot, value, NULL) == RASTER_BEYOND)
+        (void)clip_draw(&frame, raster, p, value, false);
 }
 
 /* The nearest that is met at each pixel, in the rows of a raster, beyond where it is cut at the

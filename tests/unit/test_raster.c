@@ -47,7 +47,7 @@ static uint16_t value_of(const yb_screen_t *screen, uint16_t number)
 static bool draw(const raster_t *raster, const yb_spot_t corner[3], uint16_t pixel)
 {
     pixel = value_of(raster->screen, pixel);
-    return raster_draw(raster, &corner[0], &corner[1], &corner[2], pixel) != RASTER_NOTHING;
+    return raster_draw(raster, &corner[0], &corner[1], &corner[2], pixel, NULL) != RASTER_NOTHING;
 }
 
 /* The number that was drawn, 0 where none was. */
