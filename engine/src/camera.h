@@ -47,6 +47,14 @@ int32_t camera_depth(const yb_frame_t *frame, uint32_t place, int32_t top_q8);
 /* 1/depth as in a spot, at the near distance or beyond. */
 int32_t camera_near(const yb_frame_t *frame, int32_t depth);
 
+/* Nothing nearer is drawn. Points nearer than the near distance have no spots, but the ground
+ * before the feet of who looks down is not half as far.
+ */
+static inline int32_t camera_least(const yb_frame_t *frame)
+{
+    return frame->near >> 3;
+}
+
 /* A place in view space on the screen; beyond the near distance, |right|, |up| <= 2 depth. */
 void camera_project(const yb_frame_t *frame, const camera_point_t *from, yb_spot_t *spot);
 

@@ -23,7 +23,7 @@ typedef struct {
 static int64_t inside_of(const yb_frame_t *frame, const corner_t *corner, int plane)
 {
     const camera_point_t *p = &corner->at;
-    int64_t inside = p->depth - (clip_least(frame) << CAMERA_FINER);
+    int64_t inside = p->depth - (camera_least(frame) << CAMERA_FINER);
     if (plane > 0) {
         /* One screen size beyond each side: 3/2 from the middle. But never beyond |right|, |up| =
          * 2 depth. */

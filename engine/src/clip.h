@@ -13,14 +13,6 @@
 #include "raster.h"
 #include "shade.h"
 
-/* Nothing nearer is drawn. Points nearer than the near distance have no spots, but the ground
- * before the feet of who looks down is not half as far.
- */
-static inline int32_t clip_least(const yb_frame_t *frame)
-{
-    return frame->near >> 3;
-}
-
 /* Clips a triangle and draws what is left, with its lines, if it may have any; true if that is
  * front-facing and on the screen.
  */

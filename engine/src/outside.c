@@ -1,5 +1,4 @@
 #include "camera.h"
-#include "clip.h"
 #include "fix.h"
 #include "order.h"
 #include "refine.h"
@@ -32,7 +31,7 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
         const int up = i < REFINE_TOP ? 0 : i == REFINE_TOP ? -1 : 1;
         const int32_t slope = (off_q4[i] * 256 + (off_q4[i] > 0 ? focal - 1 : 0)) / focal;
         plane->slope_q8 = slope;
-        plane->near = i == REFINE_NEAR ? clip_least(frame) : 0;
+        plane->near = i == REFINE_NEAR ? camera_least(frame) : 0;
         const int32_t lift =
             up * (frame->up_z * scale >> 13) + (slope * (frame->depth_z * scale >> 13) >> 8);
         plane->lift_q9 = (fix_abs(lift) >> frame->eye_shift) + 2;

@@ -51,7 +51,7 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
     for (int i = 0; i < 3; i++) {
         camera_point_t at;
         camera_view(frame, part->point[i]->place, part->point[i]->top_q8, &at);
-        if (at.depth + (stray * lift >> 14 >> frame->eye_shift) + 2 >= clip_least(frame))
+        if (at.depth + (stray * lift >> 14 >> frame->eye_shift) + 2 >= camera_least(frame))
             return false;
     }
     return true;

@@ -15,9 +15,9 @@ static inline void ray_corner(const yb_frame_t *frame, const yb_point_t *corner,
 {
     camera_point_t place;
     camera_view_finely(frame, corner->place, corner->top_q8, &place);
-    p[0] = place.right / 4.;
-    p[1] = place.up / 4.;
-    p[2] = place.depth / 4.;
+    p[0] = place.right * pow(2, -CAMERA_FINER);
+    p[1] = place.up * pow(2, -CAMERA_FINER);
+    p[2] = place.depth * pow(2, -CAMERA_FINER);
     if (corner->spot.near == 0)
         return;
     p[0] = (corner->spot.x_q4 - frame->screen.width * 8) * p[2] / frame->focal_q4;

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "clip.h"
 #include "colour.h"
 #include "plain_frame.h"
 #include "rays.h"
@@ -64,10 +63,10 @@ static void find_box(double p[3][3], box_t *box)
     for (int i = 0; i < 3; i++) {
         const double *a = p[i];
         const double *b = p[(i + 1) % 3];
-        if (a[2] >= clip_least(&frame))
+        if (a[2] >= camera_least(&frame))
             widen(box, a);
-        if ((a[2] >= clip_least(&frame)) != (b[2] >= clip_least(&frame))) {
-            double part = (clip_least(&frame) - a[2]) / (b[2] - a[2]);
+        if ((a[2] >= camera_least(&frame)) != (b[2] >= camera_least(&frame))) {
+            double part = (camera_least(&frame) - a[2]) / (b[2] - a[2]);
             double cut[3];
             for (int k = 0; k < 3; k++)
                 cut[k] = a[k] + part * (b[k] - a[k]);
@@ -102,7 +101,8 @@ static void cast(void *context, const yb_point_t *const corner[3])
             const double depth = ray_depth(&frame, p, rays->left + x * rays->pitch,
                                            rays->top + y * rays->pitch, &met);
             double *nearest = &rays->depth[y * rays->across + x];
-            if (met && depth >= clip_least(&frame) * 1.5 + 2 && (*nearest == 0 || depth < *nearest))
+            if (met && depth >= camera_least(&frame) * 1.5 + 2 &&
+                (*nearest == 0 || depth < *nearest))
                 *nearest = depth;
         }
     }
@@ -116,7 +116,7 @@ static bool all_ground(int i)
 {
     static double around[CLOSE * CLOSE];
     memset(around, 0, sizeof around);
-    double radius = 0.15 + frame.focal_q4 / 16.0 / (4 * clip_least(&frame));
+    double radius = 0.15 + frame.focal_q4 / 16.0 / (4 * camera_least(&frame));
     rays_t rays = {.left = i % CRACK_WIDTH + 0.5 - radius,
                    .top = i / CRACK_WIDTH + 0.5 - radius,
                    .pitch = 2 * radius / (CLOSE - 1),

@@ -59,8 +59,8 @@ static void draw_number(void *context, const yb_point_t *const p[3])
         (void)clip_draw(&frame, raster, p, value, false);
 }
 
-/* The nearest that is met at each pixel, in the rows of a raster, beyond where it is cut at the
- * near distance: corners are rounded to whole units there.
+/* The nearest that is met at each pixel, in the rows of a raster, from the near distance on:
+ * corners before it are rounded to more than a pixel.
  */
 static void find_nearest(const raster_t *raster, double *nearest)
 {

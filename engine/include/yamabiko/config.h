@@ -32,9 +32,9 @@
 
 /* Places on the explicit stack that refines one base triangle: one for each edge that is split of
  * the triangles on the way down. A triangle that would need more is drawn as it is (its neighbours
- * may leave a gap there), and counted in yb_stats_t.depth_limited. 32 were enough for all orbits of
- * random maps; 1 of 200 views from the ground wanted more (tests/unit/test_frame.c). Each takes 64
- * bytes of yb_frame_t. The upper half is lent to what bands hand on, as long as it is not needed.
+ * may leave a gap there), and counted in yb_stats_t.depth_limited. 32 are enough for all orbits of
+ * random maps, and for 200 views from the ground (tests/unit/test_frame.c). Each takes 64 bytes of
+ * yb_frame_t. The upper half is lent to what bands hand on, as long as it is not needed.
  */
 #ifndef YB_MAX_LEVELS
 #define YB_MAX_LEVELS 32
