@@ -30,7 +30,8 @@ typedef struct {
 
 enum {
     RASTER_WIDE_Q4 = 320, /* from the top of a small triangle to either side, at most, … */
-    RASTER_HIGH_Q4 = 255  /* … and to the bottom */
+    RASTER_HIGH_Q4 = 255, /* … and to the bottom */
+    RASTER_TURNED_Q4 = 4  /* a front may be turned away by so much: see raster_front_here */
 };
 
 typedef struct {
@@ -72,7 +73,13 @@ static inline bool raster_is_within(int32_t dx, int32_t most)
     return (uint32_t)(dx + most) <= 2 * (uint32_t)most;
 }
 
-/* Looks at a triangle, counter-clockwise from the front, whose corners have spots. */
+/* Looks at a triangle, counter-clockwise from the front, whose corners have spots.
+ *
+ * Rounding may turn a sliver over. Its neighbours overlap then, and nothing is missing without it.
+ * But sides that are higher than those of small triangles are themselves rounded (see plane.c), so
+ * that two of them may cross: where the neighbours leave a pixel to it, a sliver that is drawn has
+ * that pixel, and no other. So of those a quarter of a pixel turned away is a front.
+ */
 TINY raster_look_t raster_front_here(const yb_spot_t *a, const yb_spot_t *b, const yb_spot_t *c,
                                      raster_shape_t *shape)
 {
@@ -93,8 +100,11 @@ TINY raster_look_t raster_front_here(const yb_spot_t *a, const yb_spot_t *b, con
     shape->bottom = raster_pixel(low);
     const int32_t bx = (int32_t)b->x_q4 - a->x_q4;
     const int32_t cx = (int32_t)c->x_q4 - a->x_q4;
-    /* y points down: a front, counter-clockwise with y up, is negative here. */
-    if ((raster_area_t)bx * (c->y_q4 - high) - (raster_area_t)(b->y_q4 - high) * cx >= 0)
+    /* y points down: what is counter-clockwise with y up is negative here. */
+    const raster_area_t twice =
+        (raster_area_t)bx * (c->y_q4 - high) - (raster_area_t)(b->y_q4 - high) * cx;
+    if (!USUAL(twice < 0) &&
+        (low - high <= RASTER_HIGH_Q4 || twice > RASTER_TURNED_Q4 * (low - high)))
         return RASTER_NOTHING;
     if (shape->top == shape->bottom)
         return RASTER_BETWEEN;

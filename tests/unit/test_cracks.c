@@ -240,8 +240,7 @@ static void the_ground_at_the_feet_is_there(void **state)
     }
     print_message("%d pixels lie on the ground, %d of them near, and show it, but for %d\n",
                   found.hits, found.close, found.gaps);
-    /* A pixel may be left out beside slivers that are cut. */
-    assert_true(found.close > 150000 && found.gaps < found.hits / 5000 && found.cracks <= 1);
+    assert_true(found.close > 150000 && found.gaps < found.hits / 5000 && found.cracks == 0);
 }
 
 /* --- Walls ------------------------------------------------------------------------------------ */
