@@ -164,10 +164,7 @@ static void draw_root(const walk_t *walk, yb_triangle_t triangle)
         for (yb_edge_t edges; (edges = refine_edges(part)) >= REFINE_ONCE;) {
             if (refine_part_misses(frame, walk->view, part))
                 goto next;
-            if (!kept_has_room(frame, top)) {
-                frame->stats.depth_limited++;
-                break;
-            }
+            kept_make_room(frame, top);
             if (edges < 2 * REFINE_ONCE && draw_last(walk, part, top))
                 goto next;
             from = top = refine_split(frame, walk->view, part, top);
@@ -202,10 +199,6 @@ void refine_draw(yb_frame_t *frame, const refine_view_t *view, const raster_t *r
 
 /* --- Counting --------------------------------------------------------------------------------- */
 
-enum {
-    MOST_HALVINGS = 12 /* of an edge, to be counted: 2^24 leaves */
-};
-
 static uint32_t power_of_3(int32_t often)
 {
     uint32_t power = 1;
@@ -223,7 +216,7 @@ static uint32_t leaves_of(const yb_part_t *part)
 {
     int32_t often[3];
     for (int i = 0; i < 3; i++)
-        often[i] = fix_min((int32_t)(part->edge[i] >> 24), MOST_HALVINGS);
+        often[i] = refine_often(part->edge[i]);
     const int32_t least = fix_min(often[0], fix_min(often[1], often[2]));
     int i = 2;
     while (often[i] != least)
@@ -252,13 +245,13 @@ static uint32_t count_root(yb_frame_t *frame, const refine_view_t *view, yb_tria
     for (;;) {
         const yb_edge_t edges = refine_edges(part);
         const bool seen = edges < REFINE_ONCE || !refine_part_misses(frame, view, part);
-        if (seen && (edges >= REFINE_AGAIN || refine_is_sliver(frame, part)) &&
-            kept_has_room(frame, top)) {
+        if (seen && (edges >= REFINE_AGAIN || refine_is_sliver(frame, part))) {
+            kept_make_room(frame, top);
             from = top = refine_split(frame, view, part, top);
             continue;
         }
         if (seen)
-            leaves += edges >= REFINE_AGAIN ? 1 : leaves_of(part);
+            leaves += leaves_of(part);
         from = refine_next(frame->level, from, part);
         if (from == NULL || leaves > enough)
             return leaves;

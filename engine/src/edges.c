@@ -41,13 +41,13 @@ static inline yb_edge_t unless_under_water(const yb_frame_t *frame, const yb_poi
 APART yb_edge_t ask_unseen(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                            yb_edge_t edge)
 {
-    if ((refine_parity(a, b) & 1) != 0)
-        return edge;
+    if ((refine_parity(a, b) & 1) != 0 || refine_often(edge) == 0)
+        return edge & 0xffffff;
     const int32_t depth = fix_max(
         fix_min(camera_depth(frame, a->place, a->top_q8), camera_depth(frame, b->place, b->top_q8)),
         frame->near);
     if ((edge & 0xffff) * (uint32_t)camera_near(frame, depth) <= frame->longest)
-        return edge;
+        return edge & 0xffffff;
     return unless_under_water(frame, a, b, edge | REFINE_AGAIN);
 }
 
@@ -61,20 +61,20 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
 {
     const int32_t a_near = a->spot.near;
     const int32_t b_near = b->spot.near;
-    edge &= 0xffffff;
     if (a_near == 0 || b_near == 0)
         return ask_unseen(frame, a, b, edge);
     const int32_t change = fix_abs(a_near - b_near);
     const int32_t near = fix_max(a_near, b_near);
     uint32_t size = (edge & 0xffff) * (uint32_t)near;
-    uint32_t parity = refine_parity(a, b);
+    uint32_t parity = refine_parity(a, b) | (uint32_t)1 << refine_often(edge);
     if (size <= frame->longest || (parity & 1) != 0)
-        return edge;
+        return edge & 0xffffff;
     const int32_t wide = fix_abs((int32_t)a->spot.x_q4 - b->spot.x_q4);
     const int32_t high = fix_abs((int32_t)a->spot.y_q4 - b->spot.y_q4);
     if (change << 2 > near || (fix_max(wide, high) >> 4) * change > 4 * near) {
         edge |= REFINE_AGAIN;
     } else {
+        edge &= 0xffffff;
         do {
             edge += REFINE_ONCE;
             size >>= 1;
@@ -94,7 +94,8 @@ yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_poi
     int32_t along = fix_abs(dx * frame->along_x + dy * frame->along_y) >> 14;
     const int32_t length = fix_length(across, along) * open >> ORDER_OPEN_BITS;
     const yb_edge_t turned = open < ORDER_OPEN ? REFINE_TURNED : 0;
-    yb_edge_t edge = refine_ask(frame, a, b, (yb_edge_t)length | turned);
+    yb_edge_t edge =
+        refine_ask(frame, a, b, (yb_edge_t)length | turned | YB_MAX_HALVINGS * REFINE_ONCE);
     if (edge < REFINE_ONCE)
         return edge;
     dx >>= 1; /* both are even: relief_class without signs */

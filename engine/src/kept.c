@@ -1,7 +1,7 @@
 #include "kept.h"
 
-_Static_assert(sizeof((yb_frame_t *)0)->kept <= YB_MAX_LEVELS / 2 * sizeof(yb_level_t),
-               "what is kept lies in the upper half of the stack");
+_Static_assert((int)YB_LOWER_LEVELS >= (int)REFINE_PIECES,
+               "a triangle is split in the lower part at least");
 
 enum {
     NO_ROW = -1
@@ -13,14 +13,13 @@ void kept_forget(yb_frame_t *frame)
     queue->row = NO_ROW;
     queue->first = queue->end = queue->next = 0;
     queue->full = true; /* as long as nothing is binned */
-    frame->room = &frame->level[YB_MAX_LEVELS - YB_MAX_LEVELS / 2 - REFINE_PIECES];
+    frame->room = &frame->level[YB_LOWER_LEVELS - REFINE_PIECES];
 }
 
-bool kept_give_room(yb_frame_t *frame, const yb_level_t *top)
+void kept_give_room(yb_frame_t *frame)
 {
     kept_forget(frame);
     frame->room = &frame->level[YB_MAX_LEVELS - REFINE_PIECES];
-    return top <= frame->room;
 }
 
 void kept_begin(yb_frame_t *frame, int32_t first_row, int32_t end_row)

@@ -22,13 +22,14 @@ void kept_begin(yb_frame_t *frame, int32_t first_row, int32_t end_row);
 void kept_root(yb_frame_t *frame, const refine_view_t *view, yb_triangle_t triangle,
                yb_part_t *part);
 
-/* Gives the stack all its room. Is that enough to split a triangle? */
-bool kept_give_room(yb_frame_t *frame, const yb_level_t *top);
+/* Gives the stack all its room. */
+void kept_give_room(yb_frame_t *frame);
 
-/* Is there room, on the stack as far as `top`, to split a triangle? */
-static inline bool kept_has_room(yb_frame_t *frame, const yb_level_t *top)
+/* Makes room, on the stack as far as `top`, to split a triangle. */
+static inline void kept_make_room(yb_frame_t *frame, const yb_level_t *top)
 {
-    return top <= frame->room || kept_give_room(frame, top);
+    if (top > frame->room)
+        kept_give_room(frame);
 }
 
 #endif

@@ -193,7 +193,7 @@ static inline int32_t limited_stray(const yb_frame_t *frame, const yb_part_t *pa
         longest = class > longest ? class : longest;
     }
     return stray_of(frame->map, part->bulge, refine_class(longest),
-                    (int)(refine_edges(part) >> 24)); /* or less often */
+                    refine_often(refine_edges(part))); /* or less often */
 }
 
 /* What of a triangle strays so far in height, when some of it may be in the water: what is above
@@ -298,7 +298,7 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
                     int beyond)
 {
     const yb_point_t *const *p = part->point;
-    const int often = (int)(refine_edges(part) >> 24);
+    const int often = refine_often(refine_edges(part));
     const int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
 #if COPIES
     /* Where speed counts more than size: of a box only the sides are looked at that it is beyond.

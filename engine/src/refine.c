@@ -49,12 +49,16 @@ bool refine_is_sliver(const yb_frame_t *frame, const yb_part_t *part)
     return (twice < 0 ? -twice : twice) < (raster_area_t)fix_max(wide, high) * frame->thin_q4;
 }
 
-/* The edge between two midpoints, parallel to one that is split and as long as its half. */
+/* The edge between two midpoints, parallel to one that is split and as long as its half. `most`: of
+ * the edges of what it lies in, the greatest, one to be asked anew if there is any.
+ */
 static inline yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a,
-                                   const yb_point_t *b, yb_edge_t edge, bool ask)
+                                   const yb_point_t *b, yb_edge_t edge, yb_edge_t most)
 {
     yb_edge_t half = refine_half(edge);
-    return ask ? ask_anew(frame, a, b, half) : half;
+    if (most >= REFINE_AGAIN)
+        half = ask_anew(frame, a, b, (half & 0xffffff) | (refine_half(most) & 0xff000000));
+    return half;
 }
 
 /* The line from the midpoint m of ab to c, where bc is split but not ca: about half of bc, if ca is
@@ -199,10 +203,11 @@ static yb_level_t *split_three(const yb_frame_t *frame, const refine_view_t *vie
     halve(frame, a, m, b, ab, &am, &mb);
     halve(frame, b, n, c, bc, &bn, &nc);
     halve(frame, c, o, a, ca, &co, &oa);
-    const bool ask = (ab | bc | ca) >= REFINE_AGAIN;
-    const yb_edge_t on = inner_edge(frame, o, n, ab, ask) & inside;
-    const yb_edge_t mo = inner_edge(frame, m, o, bc, ask) & inside;
-    const yb_edge_t mn = inner_edge(frame, m, n, ca, ask) & inside;
+    const yb_edge_t greater = ab > bc ? ab : bc;
+    const yb_edge_t most = greater > ca ? greater : ca;
+    const yb_edge_t on = inner_edge(frame, o, n, ab, most) & inside;
+    const yb_edge_t mo = inner_edge(frame, m, o, bc, most) & inside;
+    const yb_edge_t mn = inner_edge(frame, m, n, ca, most) & inside;
     const bool a_first = eye_a > half;
     const bool c_first = eye_c > half;
     yb_part_t *const second = &level[2].rest;

@@ -56,12 +56,21 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
 /* An edge: its plan length in 1/128 step, foreshortened as the view does it, and as far as it is
  * open to the eye, in the lower 16 bits; its length class (yb_map_t.noise) and 4 in the next 7;
  * REFINE_TURNED, if it is not all open; how often it is to be halved in the upper 8, or
- * REFINE_AGAIN.
+ * REFINE_AGAIN and how often it may be.
+ *
+ * A base triangle's edges may be halved YB_MAX_HALVINGS times, and no edge of a part as often as
+ * the one of the whole that may be most often. So a triangle is split so often at most on the way
+ * to a leaf, and as each time takes up to REFINE_PIECES places, the stack has room for all of them.
  */
 #define REFINE_CLASS ((yb_edge_t)0x7f << 16)
 #define REFINE_TURNED ((yb_edge_t)1 << 23) /* it may be long, and yet left whole */
 #define REFINE_ONCE ((yb_edge_t)1 << 24)
 #define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
+
+static inline int refine_often(yb_edge_t edge)
+{
+    return (int)(edge >> 24 & 0x7f);
+}
 
 static inline int refine_class(yb_edge_t edge)
 {
@@ -89,7 +98,7 @@ static inline uint32_t refine_parity(const yb_point_t *a, const yb_point_t *b)
 yb_edge_t refine_edge(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                       int32_t open);
 
-/* The edge ab with its number of halvings, asked anew. */
+/* The edge ab with its number of halvings, asked anew: as often as it may be, at most. */
 yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                      yb_edge_t edge);
 
@@ -216,8 +225,9 @@ static inline int32_t refine_half_way(const yb_part_t *part)
  */
 bool refine_is_sliver(const yb_frame_t *frame, const yb_part_t *part);
 
-/* Splits a triangle that is to be split: into the part that comes first, in its place, and what is
- * laid aside from `level` on, REFINE_PIECES at most. The answer is what follows it.
+/* Splits a triangle that is to be split, where kept_make_room has made room: into the part that
+ * comes first, in its place, and what is laid aside from `level` on, REFINE_PIECES at most. The
+ * answer is what follows it.
  */
 enum {
     REFINE_PIECES = 3

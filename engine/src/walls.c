@@ -106,7 +106,7 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
     for (int i = 0;; i = 1) {
         for (;; i = 2) {
             wall_t wall = {part->point[next3(i)], part->point[i], &left, &right};
-            const bool splits = refine_splits(part) && kept_has_room(frame, top);
+            const bool splits = refine_splits(part);
             camera_drop(frame, wall[1], frame->base_q8, &left);
             if ((splits || part == &root) && refine_misses(frame, view, wall, 4, stray))
                 break;
@@ -114,6 +114,7 @@ static void draw_edge(yb_frame_t *frame, const refine_view_t *view, const raster
                 draw_wall(frame, raster, wall);
                 break;
             }
+            kept_make_room(frame, top);
             from = top = refine_split(frame, view, part, top);
         }
         right = left;

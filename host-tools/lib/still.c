@@ -102,9 +102,8 @@ json_t *yb_still_json(const yb_still_t *still)
     char hash[9];
     snprintf(hash, sizeof(hash), "%08" PRIx32, yb_still_hash(still));
     return json_pack(
-        "{s:o, s:{s:i, s:i, s:s}, s:{s:I, s:I, s:I}, s:i, s:s}", "view", view_json(&still->view),
+        "{s:o, s:{s:i, s:i, s:s}, s:{s:I, s:I}, s:i, s:s}", "view", view_json(&still->view),
         "screen", "width", still->screen.width, "height", still->screen.height, "format",
         yb_format_names[still->screen.format], "stats", "refined", (json_int_t)still->stats.refined,
-        "drawn", (json_int_t)still->stats.drawn, "depth_limited",
-        (json_int_t)still->stats.depth_limited, "shadow_side", still->shadow_side, "fnv1a", hash);
+        "drawn", (json_int_t)still->stats.drawn, "shadow_side", still->shadow_side, "fnv1a", hash);
 }

@@ -44,8 +44,8 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
 {
     yb_part_t whole = *part;
     for (int i = 0; i < 3; i++)
-        whole.edge[i] =
-            plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]) | REFINE_AGAIN;
+        whole.edge[i] = plain_split(part->point[i], part->point[(i + 1) % 3], whole.edge[i]) |
+                        0xff * REFINE_ONCE;
     int64_t stray = 2 * (int64_t)refine_stray(frame, &whole) + 256;
     int64_t lift = (int64_t)abs(frame->depth_z) * frame->view.exaggerate_q8 >> 8;
     for (int i = 0; i < 3; i++) {
@@ -62,7 +62,9 @@ static void walk(walk_t *at, yb_part_t part, int used)
 {
     if (plain_behind(at->frame, &part))
         return;
-    if (used > YB_MAX_LEVELS - REFINE_PIECES || !refine_splits(&part)) {
+    if (used > YB_MAX_LEVELS) /* the engine's stack would be too small */
+        abort();
+    if (!refine_splits(&part)) {
         at->count++;
         at->fn(at->context, part.point);
         return;

@@ -30,17 +30,16 @@
 #error "YB_MAX_SIDE: 16 to 4096"
 #endif
 
-/* Places on the explicit stack that refines one base triangle: one for each edge that is split of
- * the triangles on the way down. A triangle that would need more is drawn as it is (its neighbours
- * may leave a gap there), and counted in yb_stats_t.depth_limited. 32 are enough for all orbits of
- * random maps, and for 200 views from the ground (tests/unit/test_frame.c). Each takes 64 bytes of
- * yb_frame_t. The upper half is lent to what bands hand on, as long as it is not needed.
+/* How often an edge of a base triangle is halved in a frame, at most: the finest detail is so many
+ * powers of two finer than the mesh. The explicit stack that refines one base triangle has three
+ * places for each, of 64 bytes of yb_frame_t, so it never wants for room. Its upper half is lent to
+ * what bands hand on, as long as it is not needed.
  */
-#ifndef YB_MAX_LEVELS
-#define YB_MAX_LEVELS 32
+#ifndef YB_MAX_HALVINGS
+#define YB_MAX_HALVINGS 10
 #endif
-#if YB_MAX_LEVELS < 8 || YB_MAX_LEVELS > 64
-#error "YB_MAX_LEVELS: 8 to 64"
+#if YB_MAX_HALVINGS < 3 || YB_MAX_HALVINGS > 12
+#error "YB_MAX_HALVINGS: 3 to 12"
 #endif
 
 #endif

@@ -158,9 +158,8 @@ static inline size_t yb_band_row_bytes(const yb_screen_t *screen)
 
 /* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
 typedef struct {
-    uint32_t refined;       /* triangles at the end of refinement */
-    uint32_t drawn;         /* of those, front-facing and on the screen: handed to the rasteriser */
-    uint32_t depth_limited; /* left unsplit for want of YB_MAX_LEVELS */
+    uint32_t refined; /* triangles at the end of refinement */
+    uint32_t drawn;   /* of those, front-facing and on the screen: handed to the rasteriser */
 } yb_stats_t;
 
 #if YB_MAX_SIDE <= 512
@@ -219,14 +218,14 @@ typedef struct {
     int32_t bulge;
 } yb_kept_t;
 
-/* They lie in the upper half of the stack: of powers of two the greatest that fits. */
-#define YB_KEPT_FIT (YB_MAX_LEVELS / 2 * sizeof(yb_level_t) / sizeof(yb_kept_t))
+/* Places on the stack, three for each halving. The upper ones are lent to what bands hand on: a
+ * power of two of them, and the lower ones are left.
+ */
+#define YB_MAX_LEVELS (3 * YB_MAX_HALVINGS)
 enum {
-    YB_KEPT = YB_KEPT_FIT >= 128  ? 128
-              : YB_KEPT_FIT >= 64 ? 64
-              : YB_KEPT_FIT >= 32 ? 32
-              : YB_KEPT_FIT >= 16 ? 16
-                                  : 8
+    YB_KEPT = YB_MAX_HALVINGS >= 9 ? 64 : YB_MAX_HALVINGS >= 5 ? 32 : 8,
+    YB_KEPT_LEVELS = (YB_KEPT * sizeof(yb_kept_t) + sizeof(yb_level_t) - 1) / sizeof(yb_level_t),
+    YB_LOWER_LEVELS = YB_MAX_LEVELS - YB_KEPT_LEVELS
 };
 
 /* A queue of them, round and round: what the band above has handed on lies from the first up to the
@@ -293,7 +292,7 @@ typedef struct {
     union {
         yb_level_t level[YB_MAX_LEVELS];
         struct {
-            yb_level_t lower[YB_MAX_LEVELS - YB_MAX_LEVELS / 2];
+            yb_level_t lower[YB_LOWER_LEVELS];
             yb_kept_t kept[YB_KEPT];
         };
     };
