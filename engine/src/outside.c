@@ -48,30 +48,35 @@ static inline unsigned is_beyond(const refine_plane_t *plane, int32_t inside, in
     return inside - plane->near < -((((stray >> 4) + 1) * plane->lift_q9 >> 5) + 12);
 }
 
-/* The planes for which that is so, a bit each. */
+TINY unsigned asked(const refine_plane_t *plane, int i, unsigned of, const camera_point_t *at,
+                    int32_t off, int32_t stray)
+{
+    if ((of & 1u << i) == 0)
+        return 0;
+    return is_beyond(&plane[i], (at->depth * plane[i].slope_q8 >> 8) + off, stray) << i;
+}
+
+/* The planes for which that is so, a bit each, of those that are asked for. */
 APART unsigned beyond_which(const yb_frame_t *frame, const refine_view_t *view, uint32_t place,
-                            int32_t top_q8, int32_t stray)
+                            int32_t top_q8, int32_t stray, unsigned of)
 {
     const refine_plane_t *plane = view->plane;
     camera_point_t at;
     camera_view(frame, place, top_q8, &at);
-    const int32_t aside = at.depth * plane[REFINE_LEFTMOST].slope_q8 >> 8; /* on both sides */
-    const int32_t above = at.depth * plane[REFINE_TOP].slope_q8 >> 8;
-    const int32_t below = at.depth * plane[REFINE_BOTTOM].slope_q8 >> 8;
-    return is_beyond(&plane[REFINE_NEAR], at.depth, stray) |
-           is_beyond(&plane[REFINE_LEFTMOST], aside + at.right, stray) << REFINE_LEFTMOST |
-           is_beyond(&plane[REFINE_RIGHTMOST], aside - at.right, stray) << REFINE_RIGHTMOST |
-           is_beyond(&plane[REFINE_TOP], above - at.up, stray) << REFINE_TOP |
-           is_beyond(&plane[REFINE_BOTTOM], below + at.up, stray) << REFINE_BOTTOM;
+    return asked(plane, REFINE_NEAR, of, &at, 0, stray) |
+           asked(plane, REFINE_LEFTMOST, of, &at, at.right, stray) |
+           asked(plane, REFINE_RIGHTMOST, of, &at, -at.right, stray) |
+           asked(plane, REFINE_TOP, of, &at, -at.up, stray) |
+           asked(plane, REFINE_BOTTOM, of, &at, at.up, stray);
 }
 
 /* For points without spots. */
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int32_t stray)
 {
-    unsigned beyond = ~0u;
+    unsigned beyond = (1u << REFINE_PLANES) - 1;
     while (beyond != 0 && count-- > 0)
-        beyond &= beyond_which(frame, view, p[count]->place, p[count]->top_q8, stray);
+        beyond = beyond_which(frame, view, p[count]->place, p[count]->top_q8, stray, beyond);
     return beyond != 0;
 }
 
@@ -230,8 +235,9 @@ void refine_see_vertices(yb_frame_t *frame, const refine_view_t *whole)
     for (int i = 0; i < map->vertex_count; i++) {
         const yb_vertex_t *v = &map->vertex[i];
         if (frame->seen[i].near == 0)
-            frame->seen[i].x_q4 = (yb_side_t)beyond_which(frame, whole, relief_place(v),
-                                                          fix_max(v->z_q8, water), stray);
+            frame->seen[i].x_q4 =
+                (yb_side_t)beyond_which(frame, whole, relief_place(v), fix_max(v->z_q8, water),
+                                        stray, (1u << REFINE_PLANES) - 1);
     }
 }
 
@@ -308,7 +314,9 @@ bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb
     const yb_spot_t *c = &p[2]->spot;
     const int32_t near = fix_max(a->near, fix_max(b->near, c->near));
     spare_t spare;
-    if (beyond < REFINE_NOWHERE && find_part_spare(frame, often, stray, near, &spare))
+    if (beyond >= REFINE_NOWHERE)
+        return misses_planes(frame, view, p, 3, stray);
+    if (find_part_spare(frame, often, stray, near, &spare))
         return ((beyond & (REFINE_ABOVE | REFINE_BELOW)) != 0 &&
                 are_off(a->y_q4, b->y_q4, c->y_q4, view->top_q4, view->high_q4, spare.y)) ||
                ((beyond & (REFINE_LEFT | REFINE_RIGHT)) != 0 &&
