@@ -70,14 +70,13 @@ APART unsigned beyond_which(const yb_frame_t *frame, const refine_view_t *view, 
            asked(plane, REFINE_BOTTOM, of, &at, at.up, stray);
 }
 
-/* For points without spots. */
+/* Are points all beyond one of some planes, whether they have spots or not? */
 static bool misses_planes(const yb_frame_t *frame, const refine_view_t *view,
-                          const yb_point_t *const *p, int count, int32_t stray)
+                          const yb_point_t *const *p, int count, int32_t stray, unsigned of)
 {
-    unsigned beyond = (1u << REFINE_PLANES) - 1;
-    while (beyond != 0 && count-- > 0)
-        beyond = beyond_which(frame, view, p[count]->place, p[count]->top_q8, stray, beyond);
-    return beyond != 0;
+    while (of != 0 && count-- > 0)
+        of = beyond_which(frame, view, p[count]->place, p[count]->top_q8, stray, of);
+    return of != 0;
 }
 
 /* The box on the screen that holds some points and what lies between them, 1/16 pixel. */
@@ -235,9 +234,8 @@ void refine_see_vertices(yb_frame_t *frame, const refine_view_t *whole)
     for (int i = 0; i < map->vertex_count; i++) {
         const yb_vertex_t *v = &map->vertex[i];
         if (frame->seen[i].near == 0)
-            frame->seen[i].x_q4 =
-                (yb_side_t)beyond_which(frame, whole, relief_place(v), fix_max(v->z_q8, water),
-                                        stray, (1u << REFINE_PLANES) - 1);
+            frame->seen[i].x_q4 = (yb_side_t)beyond_which(
+                frame, whole, relief_place(v), fix_max(v->z_q8, water), stray, REFINE_ALL);
     }
 }
 
@@ -274,7 +272,7 @@ COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *
     if (box->near == 0 || !find_part_spare(frame, crowd->often, crowd->stray, box->near, &spare)) {
         box->top = INT32_MIN;
         box->bottom = INT32_MAX;
-        return misses_planes(frame, view, crowd->p, crowd->count, crowd->stray);
+        return misses_planes(frame, view, crowd->p, crowd->count, crowd->stray, REFINE_ALL);
     }
     widen_box(&spare, box);
     return box_misses(view, box);
@@ -283,6 +281,8 @@ COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *
 bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int often, int32_t stray)
 {
+    if (p[0]->spot.near == 0)
+        return misses_planes(frame, view, p, count, stray, REFINE_ALL);
     crowd_t crowd; /* field by field: small compilers would clear it first */
     crowd.p = p;
     crowd.count = count;
@@ -292,40 +292,61 @@ bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
     return misses(frame, view, &crowd);
 }
 
+static inline int32_t part_stray(const yb_frame_t *frame, const yb_part_t *part)
+{
+    return stray_in_water(frame, part->point, limited_stray(frame, part));
+}
+
+#if COPIES
 /* Are three coordinates all before a way on the screen, or all behind it, by more than `spare`? */
-COPIED bool are_off(int32_t a, int32_t b, int32_t c, int32_t from, uint32_t size, int32_t spare)
+static inline bool are_off(int32_t a, int32_t b, int32_t c, int32_t from, uint32_t size,
+                           int32_t spare)
 {
     const int32_t first = from - spare;
     const int32_t last = from + (int32_t)size - 1 + spare;
     return (((a - first) & (b - first) & (c - first)) | ((last - a) & (last - b) & (last - c))) < 0;
 }
 
+/* The planes that the corners may all be beyond: by their spots, of those that have one. */
+static inline unsigned in_question(const yb_point_t *const p[3])
+{
+    unsigned beyond = REFINE_ALL;
+    WRITTEN_OUT
+    for (int i = 0; i < 3; i++)
+        beyond &= p[i]->spot.near != 0 ? p[i]->spot.out : (unsigned)REFINE_ALL;
+    return beyond;
+}
+
+/* Where speed counts more than size: only the sides of the box, and the planes, are looked at that
+ * it is beyond.
+ */
 bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
                     int beyond)
 {
     const yb_point_t *const *p = part->point;
     const int often = refine_often(refine_edges(part));
-    const int32_t stray = stray_in_water(frame, p, limited_stray(frame, part));
-#if COPIES
-    /* Where speed counts more than size: of a box only the sides are looked at that it is beyond.
-     */
+    const int32_t stray = part_stray(frame, part);
     const yb_spot_t *a = &p[0]->spot;
     const yb_spot_t *b = &p[1]->spot;
     const yb_spot_t *c = &p[2]->spot;
     const int32_t near = fix_max(a->near, fix_max(b->near, c->near));
     spare_t spare;
-    if (beyond >= REFINE_NOWHERE)
-        return misses_planes(frame, view, p, 3, stray);
-    if (find_part_spare(frame, often, stray, near, &spare))
-        return ((beyond & (REFINE_ABOVE | REFINE_BELOW)) != 0 &&
-                are_off(a->y_q4, b->y_q4, c->y_q4, view->top_q4, view->high_q4, spare.y)) ||
-               ((beyond & (REFINE_LEFT | REFINE_RIGHT)) != 0 &&
-                are_off(a->x_q4, b->x_q4, c->x_q4, view->left_q4, view->wide_q4, spare.x));
-#else
-    (void)beyond;
-#endif
-    return refine_halved_misses(frame, view, p, 3, often, stray);
+    if ((beyond & REFINE_NOWHERE) != 0 || !find_part_spare(frame, often, stray, near, &spare))
+        return misses_planes(frame, view, p, 3, stray, in_question(p));
+    return ((beyond & (REFINE_ABOVE | REFINE_BELOW)) != 0 &&
+            are_off(a->y_q4, b->y_q4, c->y_q4, view->top_q4, view->high_q4, spare.y)) ||
+           ((beyond & (REFINE_LEFT | REFINE_RIGHT)) != 0 &&
+            are_off(a->x_q4, b->x_q4, c->x_q4, view->left_q4, view->wide_q4, spare.x));
 }
+#else
+bool refine_far_off(const yb_frame_t *frame, const refine_view_t *view, const yb_part_t *part,
+                    int beyond)
+{
+    (void)beyond;
+    return refine_halved_misses(frame, view, part->point, 3, refine_often(refine_edges(part)),
+                                part_stray(frame, part));
+}
+#endif
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 

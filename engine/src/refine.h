@@ -15,16 +15,6 @@
 
 /* --- Views: outside.c ------------------------------------------------------------------------- */
 
-/* yb_spot_t.out: the sides of some rows of the screen that a point is beyond. */
-enum {
-    REFINE_ABOVE = 1,
-    REFINE_BELOW = 2,
-    REFINE_LEFT = 4,
-    REFINE_RIGHT = 8,
-    REFINE_SIDES = 15,
-    REFINE_NOWHERE = 16 /* it has no spot */
-};
-
 /* The pyramid that some rows of the screen are seen through. */
 enum {
     REFINE_NEAR,
@@ -33,6 +23,17 @@ enum {
     REFINE_TOP,
     REFINE_BOTTOM,
     REFINE_PLANES
+};
+
+/* yb_spot_t.out: the sides of those rows that a point is beyond, or that it has no spot. */
+enum {
+    REFINE_NOWHERE = 1 << REFINE_NEAR,
+    REFINE_LEFT = 1 << REFINE_LEFTMOST,
+    REFINE_RIGHT = 1 << REFINE_RIGHTMOST,
+    REFINE_ABOVE = 1 << REFINE_TOP,
+    REFINE_BELOW = 1 << REFINE_BOTTOM,
+    REFINE_ALL = (1 << REFINE_PLANES) - 1,
+    REFINE_SIDES = REFINE_ALL - REFINE_NOWHERE
 };
 
 typedef struct {
