@@ -87,17 +87,15 @@ COPIED void draw_plane(bool colours, const raster_t *raster, const raster_shape_
     long_side_t left = long_side(p[l], p[1 + l], y);
     long_side_t right = long_side(p[2 * r], p[2 - r], y);
     for (;;) {
-        uint32_t value = cut != NULL ? rows_value(cut, y) : 0;
         int32_t rows = bottom - y;
         do {
             const int32_t x = pixel_of(&left);
             const int32_t end = pixel_of(&right);
-            if (cut != NULL) {
-                rows_cut(colours, row, fix_max(x, 0), fix_min(end, width), value, cut);
-                value += (uint32_t)cut->along_y;
-            } else if (x < end) {
+            if (cut != NULL)
+                rows_cut(colours, row, fix_max(x, 0), fix_min(end, width),
+                         rows_value(cut, bottom - rows), cut);
+            else if (x < end)
                 rows_fill(colours, row, fix_max(x, 0), fix_min(end, width), pixel);
-            }
             row += pitch;
             left.at += left.step;
             right.at += right.step;
