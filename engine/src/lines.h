@@ -28,9 +28,9 @@ enum {
     LINES_NARROW = 168 /* pixels: on a screen no larger, differences are below 2^13 */
 };
 
-/* Finds a cut's values of a triangle whose heights differ by less than 2^16. It is
- * counter-clockwise, and has an area. False: a line is a quarter of the way from one to the next,
- * or more; where there is one only, the triangle is a sliver.
+/* Finds a cut's values of a triangle, counter-clockwise, whose heights differ by less than 2^16.
+ * False: it has no area, or a line is a quarter of the way from one to the next, or more; where
+ * there is one only, the triangle is a sliver.
  *
  * Twice the area is below 2^27, and the determinants of rises and sides below 2^30. Of these
  * numbers the leading bits will do: lines are off by less than 2^-11 of where they begin.

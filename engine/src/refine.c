@@ -62,7 +62,8 @@ static inline yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a,
 }
 
 /* The line from the midpoint m of ab to c, where bc is split but not ca: about half of bc, if ca is
- * short, and split as that is, as far as its midpoints are on the lattice; else left whole.
+ * short, and split as that is, as far as its midpoints are on the lattice; else left whole. It may
+ * be longer where ca is under water.
  */
 static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const yb_point_t *c,
                             yb_edge_t bc, yb_edge_t ca)
@@ -70,8 +71,10 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     if ((ca & REFINE_TURNED) != 0)
         return 0;
     yb_edge_t mc = refine_half(bc);
-    if (bc >= REFINE_AGAIN) /* unless the half is so short that it has no class */
-        return refine_class(mc) >= 0 ? ask_anew(frame, m, c, mc) : mc & 0xffffff;
+    if (bc >= REFINE_AGAIN) { /* as often as the half has classes for, at most */
+        const int32_t most = fix_min(refine_often(mc), (refine_class(mc) + 4) >> 2);
+        return ask_anew(frame, m, c, (mc & 0x80ffffff) | (yb_edge_t)most << 24);
+    }
     const uint32_t parity = refine_parity(m, c);
     int often = 0;
     while (often < (int)(mc >> 24) && (parity >> often & 1) == 0)

@@ -79,7 +79,7 @@ static inline int refine_class(yb_edge_t edge)
 }
 
 /* Either half of an edge that is split, to be asked anew if that is REFINE_AGAIN. Its class is its
- * own only if it can be split on.
+ * own only if it can be split on, and if it is no part of a line across (refine.c).
  */
 TINY yb_edge_t refine_half(yb_edge_t edge)
 {

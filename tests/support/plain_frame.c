@@ -57,11 +57,25 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
     return true;
 }
 
+/* An edge that is split has a class, and so has all that it is halved into. */
+static void check_edges(const yb_part_t *part)
+{
+    for (int i = 0; i < 3; i++) {
+        const yb_edge_t edge = part->edge[i];
+        const int often = refine_often(edge);
+        const int least = edge < REFINE_AGAIN ? 4 * (often - 1) : 0;
+        if (edge >= REFINE_ONCE &&
+            (often < 1 || often > YB_MAX_HALVINGS || refine_class(edge) < least))
+            abort();
+    }
+}
+
 /* `used`: what the engine would have laid aside by now. */
 static void walk(walk_t *at, yb_part_t part, int used)
 {
     if (plain_behind(at->frame, &part))
         return;
+    check_edges(&part);
     if (used > YB_MAX_LEVELS) /* the engine's stack would be too small */
         abort();
     if (!refine_splits(&part)) {

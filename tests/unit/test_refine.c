@@ -248,6 +248,44 @@ static void bins_hold_their_triangles(void **state)
     }
 }
 
+static void count_leaf(void *context, const yb_point_t *const p[3])
+{
+    (void)p;
+    ++*(uint32_t *)context;
+}
+
+/* A line across a triangle goes by half of the edge beside it, and may be far longer than that:
+ * here, by a shore. plain_frame says if it is halved more often than the half has classes for.
+ */
+static void lines_across_are_not_halved_too_often(void **state)
+{
+    (void)state;
+    static const uint8_t code[] = {
+        0x20, 0x60, 0x09, 0xff, 0x80, 0x80, 0x01, 0x09, 0x00, 0x1b, 0x00, 0x0d, 0xa4,
+        0x00, 0x00, 0x2f, 0x00, 0x3b, 0x07, 0x03, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01,
+        0x01, 0x9e, 0x00, 0x55, 0x47, 0x43, 0xef, 0x51, 0x74, 0x34, 0x02, 0x08, 0x04,
+        0xdd, 0x46, 0x00, 0x69, 0x58, 0x37, 0xcb, 0xc1, 0x0e, 0x00, 0x4f, 0x25, 0x54,
+        0x00, 0x66, 0x25, 0x50, 0x00, 0x60, 0x1f, 0x5c, 0x00, 0x62, 0x29, 0x54, 0x00,
+        0x65, 0x2b, 0x52, 0x00, 0x49, 0x21, 0x51, 0x00, 0x64, 0x26, 0x53, 0xec};
+    assert_int_equal(yb_map_load(&map, &load, code, sizeof code), YB_OK);
+    yb_view_t view;
+    yb_view_init(&view, &map);
+    static const int32_t eye[3] = {9519, 21438, 2480};
+    static const int32_t look[3] = {10374, 20410, -13849};
+    memcpy(view.eye_q8, eye, sizeof eye);
+    memcpy(view.look_q8, look, sizeof look);
+    view.zoom_q12 = 9449;
+    view.edge_q4 = 49;
+    view.water_q8 = 2180;
+    view.walls = false;
+    view.azimuth_bam = 25526;
+    static const yb_screen_t screen = {320, 240, YB_RGB565};
+    yb_frame_begin(&frame, &map, &view, &screen);
+    uint32_t count = 0;
+    (void)plain_leaves(&frame, count_leaf, &count);
+    assert_true(count > 10000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +293,7 @@ int main(void)
         cmocka_unit_test(midpoints_are_the_surfaces),
         cmocka_unit_test(bounds_hold_all_that_a_triangle_becomes),
         cmocka_unit_test(bins_hold_their_triangles),
+        cmocka_unit_test(lines_across_are_not_halved_too_often),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

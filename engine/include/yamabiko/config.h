@@ -32,8 +32,8 @@
 
 /* How often an edge of a base triangle is halved in a frame, at most: the finest detail is so many
  * powers of two finer than the mesh. The explicit stack that refines one base triangle has three
- * places for each, of 64 bytes of yb_frame_t, so it never wants for room. Its upper half is lent to
- * what bands hand on, as long as it is not needed.
+ * places for each, of 64 bytes of yb_frame_t (on 32 bits), so it never wants for room. Its upper
+ * part is lent to what bands hand on, as long as it is not needed.
  */
 #ifndef YB_MAX_HALVINGS
 #define YB_MAX_HALVINGS 10

@@ -159,7 +159,7 @@ static inline size_t yb_band_row_bytes(const yb_screen_t *screen)
 /* What a frame's bands have done so far: a triangle that meets three bands counts three times. */
 typedef struct {
     uint32_t refined; /* triangles at the end of refinement */
-    uint32_t drawn;   /* of those, front-facing and on the screen: handed to the rasteriser */
+    uint32_t drawn;   /* of those, front-facing (or on edge) and on the screen: rasterised */
 } yb_stats_t;
 
 #if YB_MAX_SIDE <= 512
