@@ -11,8 +11,8 @@ enum {
     NEAREST_Q8 = 128, /* half a step: never draw nearer */
     LEAST_NEAR = 64,  /* in the view's own unit: what rounding does must stay small beside it */
     LEAST_ZOOM_Q12 = 1024,
-    NEARER_Q4 = 70,  /* what edges near the eye may be longer … */
-    ROUGH_Q8 = 160,  /* … and by a sixteenth of the width more where noise moves a step so far */
+    NEARER_Q8 = 88, /* near the eye edges may be longer: as if noise moved a step so far, and … */
+    ROUGH_Q8 = 160, /* … by a sixteenth of the width where it does move one so far */
     STEP_CLASS = 28, /* of an edge of one step */
     OPEN_TURN = 2    /* triangles are open where they are seen from 30 degrees or more: a half */
 };
@@ -296,7 +296,7 @@ static uint32_t usual_edge(const yb_frame_t *frame)
     const int32_t near = fix_min(frame->near << frame->eye_shift, far);
     const int32_t noise = frame->map->detail ? frame->map->noise[STEP_CLASS] : 0;
     const int32_t rough = fix_min(noise * frame->view.exaggerate_q8 >> 8, ROUGH_Q8);
-    const int32_t more = NEARER_Q4 + rough * width / ROUGH_Q8;
+    const int32_t more = (NEARER_Q8 + rough) * width / ROUGH_Q8;
     return (uint32_t)(fix_max(86 * width / 96 - 16, (width + 1) >> 1) + more * (far - near) / far);
 }
 
