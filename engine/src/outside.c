@@ -85,24 +85,24 @@ typedef struct {
     int32_t near; /* greatest 1/depth */
 } box_t;
 
-/* If not all of them have spots it has no `near`. */
+/* If not all of them have spots it has no `near`, and its sides are any. */
 COPIED void find_box(const yb_point_t *const *p, int count, box_t *box)
 {
-    int32_t least = INT32_MAX;
     box->near = 0;
     box->left = box->top = INT32_MAX;
     box->right = box->bottom = INT32_MIN;
     for (int k = 0; k < count; k++) {
         const yb_spot_t *spot = &p[k]->spot;
-        least = fix_min(least, spot->near);
+        if (spot->near == 0) {
+            box->near = 0;
+            return;
+        }
         box->near = fix_max(box->near, spot->near);
         box->left = fix_min(box->left, spot->x_q4);
         box->right = fix_max(box->right, spot->x_q4);
         box->top = fix_min(box->top, spot->y_q4);
         box->bottom = fix_max(box->bottom, spot->y_q4);
     }
-    if (least == 0)
-        box->near = 0;
 }
 
 /* How far on the screen points of up to 1/depth `near` go that move by `stray` in height. */
@@ -214,10 +214,15 @@ static inline int32_t stray_in_water(const yb_frame_t *frame, const yb_point_t *
     return stray;
 }
 
-int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
+COPIED int32_t part_stray(const yb_frame_t *frame, const yb_part_t *part)
 {
     int32_t stray = refine_edges(part) >= REFINE_ONCE ? limited_stray(frame, part) : 0;
     return stray_in_water(frame, part->point, stray);
+}
+
+int32_t refine_stray(const yb_frame_t *frame, const yb_part_t *part)
+{
+    return part_stray(frame, part);
 }
 
 /* The map's bound is by other midpoints. Twice that is more than any point moves: three times the
@@ -281,8 +286,6 @@ COPIED bool misses(const yb_frame_t *frame, const refine_view_t *view, crowd_t *
 bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
                           const yb_point_t *const *p, int count, int often, int32_t stray)
 {
-    if (p[0]->spot.near == 0)
-        return misses_planes(frame, view, p, count, stray, REFINE_ALL);
     crowd_t crowd; /* field by field: small compilers would clear it first */
     crowd.p = p;
     crowd.count = count;
@@ -290,11 +293,6 @@ bool refine_halved_misses(const yb_frame_t *frame, const refine_view_t *view,
     crowd.stray = stray;
     find_box(p, count, &crowd.box);
     return misses(frame, view, &crowd);
-}
-
-static inline int32_t part_stray(const yb_frame_t *frame, const yb_part_t *part)
-{
-    return stray_in_water(frame, part->point, limited_stray(frame, part));
 }
 
 #if COPIES

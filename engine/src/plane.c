@@ -91,11 +91,14 @@ COPIED void draw_plane(bool colours, const raster_t *raster, const raster_shape_
         do {
             const int32_t x = pixel_of(&left);
             const int32_t end = pixel_of(&right);
-            if (cut != NULL)
-                rows_cut(colours, row, fix_max(x, 0), fix_min(end, width),
-                         rows_value(cut, bottom - rows), cut);
-            else if (x < end)
-                rows_fill(colours, row, fix_max(x, 0), fix_min(end, width), pixel);
+            if (x < end) { /* the rows of slivers often have no pixel */
+                const int32_t from = fix_max(x, 0);
+                const int32_t to = fix_min(end, width);
+                if (cut != NULL)
+                    rows_cut(colours, row, from, to, rows_value(cut, bottom - rows), cut);
+                else
+                    rows_fill(colours, row, from, to, pixel);
+            }
             row += pitch;
             left.at += left.step;
             right.at += right.step;
