@@ -23,7 +23,7 @@ APART yb_edge_t unless_drowned(const yb_frame_t *frame, const yb_point_t *a, con
     int class = relief_class(dx, dy);
     const relief_bound_t bound = {rise + (rise >> 1) + 16, class};
     int32_t most = fix_max(a->z_q8, b->z_q8) + relief_reach(frame->map, &bound, 0);
-    return most < frame->view.water_q8 ? edge & 0xffffff : edge;
+    return most < frame->view.water_q8 ? edge & REFINE_WHOLE : edge;
 }
 
 static inline yb_edge_t unless_under_water(const yb_frame_t *frame, const yb_point_t *a,
@@ -42,12 +42,12 @@ APART yb_edge_t ask_unseen(const yb_frame_t *frame, const yb_point_t *a, const y
                            yb_edge_t edge)
 {
     if ((refine_parity(a, b) & 1) != 0 || refine_often(edge) == 0)
-        return edge & 0xffffff;
+        return edge & REFINE_WHOLE;
     const int32_t depth = fix_max(
         fix_min(camera_depth(frame, a->place, a->top_q8), camera_depth(frame, b->place, b->top_q8)),
         frame->near);
     if ((edge & 0xffff) * (uint32_t)camera_near(frame, depth) <= frame->longest)
-        return edge & 0xffffff;
+        return edge & REFINE_WHOLE;
     return unless_under_water(frame, a, b, edge | REFINE_AGAIN);
 }
 
@@ -68,13 +68,13 @@ yb_edge_t refine_ask(const yb_frame_t *frame, const yb_point_t *a, const yb_poin
     uint32_t size = (edge & 0xffff) * (uint32_t)near;
     uint32_t parity = refine_parity(a, b) | (uint32_t)1 << refine_often(edge);
     if (size <= frame->longest || (parity & 1) != 0)
-        return edge & 0xffffff;
+        return edge & REFINE_WHOLE;
     const int32_t wide = fix_abs((int32_t)a->spot.x_q4 - b->spot.x_q4);
     const int32_t high = fix_abs((int32_t)a->spot.y_q4 - b->spot.y_q4);
     if (change << 2 > near || (fix_max(wide, high) >> 4) * change > 4 * near) {
         edge |= REFINE_AGAIN;
     } else {
-        edge &= 0xffffff;
+        edge &= REFINE_WHOLE;
         do {
             edge += REFINE_ONCE;
             size >>= 1;

@@ -17,7 +17,7 @@ static inline bool looks_short(const yb_frame_t *frame, const yb_point_t *a, con
 static inline yb_edge_t ask_anew(const yb_frame_t *frame, const yb_point_t *a, const yb_point_t *b,
                                  yb_edge_t edge)
 {
-    return looks_short(frame, a, b, edge & 0xffff) ? edge & 0xffffff
+    return looks_short(frame, a, b, edge & 0xffff) ? edge & REFINE_WHOLE
                                                    : refine_ask(frame, a, b, edge);
 }
 
@@ -57,13 +57,13 @@ static inline yb_edge_t inner_edge(const yb_frame_t *frame, const yb_point_t *a,
 {
     yb_edge_t half = refine_half(edge);
     if (most >= REFINE_AGAIN)
-        half = ask_anew(frame, a, b, (half & 0xffffff) | (refine_half(most) & 0xff000000));
+        half = ask_anew(frame, a, b, (half & REFINE_WHOLE) | (refine_half(most) & ~REFINE_WHOLE));
     return half;
 }
 
 /* The line from the midpoint m of ab to c, where bc is split but not ca: about half of bc, if ca is
  * short, and split as that is, as far as its midpoints are on the lattice; else left whole. It may
- * be longer where ca is under water.
+ * be longer where ca is long and left whole, as under water.
  */
 static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const yb_point_t *c,
                             yb_edge_t bc, yb_edge_t ca)
@@ -73,13 +73,13 @@ static yb_edge_t cross_edge(const yb_frame_t *frame, const yb_point_t *m, const 
     yb_edge_t mc = refine_half(bc);
     if (bc >= REFINE_AGAIN) { /* as often as the half has classes for, at most */
         const int32_t most = fix_min(refine_often(mc), (refine_class(mc) + 4) >> 2);
-        return ask_anew(frame, m, c, (mc & 0x80ffffff) | (yb_edge_t)most << 24);
+        return ask_anew(frame, m, c, (mc & (REFINE_AGAIN | REFINE_WHOLE)) | (yb_edge_t)most << 24);
     }
     const uint32_t parity = refine_parity(m, c);
     int often = 0;
-    while (often < (int)(mc >> 24) && (parity >> often & 1) == 0)
+    while (often < refine_often(mc) && (parity >> often & 1) == 0)
         often++;
-    return (mc & 0xffffff) | (yb_edge_t)often << 24;
+    return (mc & REFINE_WHOLE) | (yb_edge_t)often << 24;
 }
 
 /* Of a triangle whose edges are all split, the corner a that has the part with its corner b come
@@ -232,7 +232,7 @@ yb_level_t *refine_split(const yb_frame_t *frame, const refine_view_t *view, yb_
     turn(part, refine_first_corner(part));
     if (part->edge[1] < REFINE_ONCE)
         return split_one(frame, view, part, level);
-    const yb_edge_t inside = refine_is_sliver(frame, part) ? REFINE_ONCE - 1 : ~(yb_edge_t)0;
+    const yb_edge_t inside = refine_is_sliver(frame, part) ? REFINE_WHOLE : ~(yb_edge_t)0;
     if (part->edge[2] < REFINE_ONCE)
         return split_two(frame, view, part, level, inside);
     return split_three(frame, view, part, level, inside);

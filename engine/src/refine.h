@@ -67,7 +67,9 @@ void refine_see(const yb_frame_t *frame, int32_t first_row, int32_t end_row, ref
 #define REFINE_TURNED ((yb_edge_t)1 << 23) /* it may be long, and yet left whole */
 #define REFINE_ONCE ((yb_edge_t)1 << 24)
 #define REFINE_AGAIN ((yb_edge_t)0x80 << 24) /* once; then ask each half anew */
+#define REFINE_WHOLE (REFINE_ONCE - 1)       /* what stays of an edge that is left whole */
 
+/* How often it is to be halved, or may be. Of several, one by one OR'ed: no less than each. */
 static inline int refine_often(yb_edge_t edge)
 {
     return (int)(edge >> 24 & 0x7f);

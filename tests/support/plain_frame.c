@@ -1,5 +1,6 @@
 #include "plain_frame.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "camera.h"
@@ -57,6 +58,15 @@ bool plain_behind(const yb_frame_t *frame, const yb_part_t *part)
     return true;
 }
 
+/* What the engine relies on without asking. */
+static void must(bool holds, const char *what)
+{
+    if (holds)
+        return;
+    (void)fprintf(stderr, "plain_frame: %s\n", what);
+    abort();
+}
+
 /* An edge that is split has a class, and so has all that it is halved into. */
 static void check_edges(const yb_part_t *part)
 {
@@ -64,9 +74,10 @@ static void check_edges(const yb_part_t *part)
         const yb_edge_t edge = part->edge[i];
         const int often = refine_often(edge);
         const int least = edge < REFINE_AGAIN ? 4 * (often - 1) : 0;
-        if (edge >= REFINE_ONCE &&
-            (often < 1 || often > YB_MAX_HALVINGS || refine_class(edge) < least))
-            abort();
+        if (edge < REFINE_ONCE)
+            continue;
+        must(often >= 1 && often <= YB_MAX_HALVINGS, "an edge is halved too often");
+        must(refine_class(edge) >= least, "an edge is halved to what has no class");
     }
 }
 
@@ -76,8 +87,7 @@ static void walk(walk_t *at, yb_part_t part, int used)
     if (plain_behind(at->frame, &part))
         return;
     check_edges(&part);
-    if (used > YB_MAX_LEVELS) /* the engine's stack would be too small */
-        abort();
+    must(used <= YB_MAX_LEVELS, "the stack has not room enough");
     if (!refine_splits(&part)) {
         at->count++;
         at->fn(at->context, part.point);

@@ -243,7 +243,7 @@ static void look_at_the_feet(const yb_screen_t *screen)
     }
     print_message("%d pixels lie on the ground, %d of them near, and show it, but for %d\n",
                   found.hits, found.close, found.gaps);
-    assert_true(found.close > 100 * 1500 && found.gaps < found.hits / 5000 && found.cracks == 0);
+    assert_true(found.close > 150000 && found.gaps < found.hits / 5000 && found.cracks == 0);
 }
 
 static void the_ground_at_the_feet_is_there(void **state)

@@ -46,7 +46,7 @@ static void check_edge(const yb_point_t *a, const yb_point_t *b)
         yb_point_t back_middle;
         if (how == 0 && (a->spot.near == 0 || b->spot.near == 0))
             continue;
-        there = (plain_split(a, b, there) & 0xffffff) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
+        there = (plain_split(a, b, there) & REFINE_WHOLE) | (how == 0 ? REFINE_ONCE : REFINE_AGAIN);
         memset(&forth_middle, 0, sizeof forth_middle);
         memset(&back_middle, 0, sizeof back_middle);
         refine_middle(&frame, plain_view(&frame), a, b, there, &forth_middle);

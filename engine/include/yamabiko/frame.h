@@ -306,7 +306,7 @@ typedef struct {
 /* One piece of memory for all: `bytes` bytes, a loaded map at the beginning. In what that does not
  * need this places a frame of it, and a band from the screen's top with as many rows as there is
  * room for: the fewer vertices a map has, the taller the band and the faster the frame. A map of
- * 100 vertices takes 6.7 KB with its frame, each vertex more or less 40 bytes. Its triangles are
+ * 100 vertices takes 6.6 KB with its frame, each vertex more or less 40 bytes. Its triangles are
  * moved (yb_map_triangle); the frame is shorter than its type, and not to be copied. The caller may
  * lower band->rows. NULL: there is not room for one row, as there always is in sizeof(yb_map_t) +
  * sizeof(yb_frame_t), two pointers, and yb_band_row_bytes. Frame and band are the caller's until

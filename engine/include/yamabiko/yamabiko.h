@@ -16,7 +16,7 @@
  * point. The caller places three structs:
  *   yb_map_t    the mesh: as long as the map is used              (6.9 KB with 255 vertices)
  *   yb_load_t   working memory of decoding: until YB_OK           (3.2 KB)
- *   yb_frame_t  working memory of drawing: one frame at a time    (6.0 KB)
+ *   yb_frame_t  working memory of drawing: one frame at a time    (5.9 KB)
  * A yb_load_t and a yb_frame_t are never needed at once: a union of both saves RAM. What a map
  * leaves of its own makes bands taller: yb_frame_place.
  *
